@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:    Every pool's limit, with the arithmetic that leads to it. One home for all of them.
+ * Is not:  A promise that the machine has the memory: slabs come as needed, and a refused slab is STATUS_NO_MEMORY.
+ * Units:   items, unless the name says otherwise.
+ */
+#ifndef GLAISE_CLAY_CAPACITY_H
+#define GLAISE_CLAY_CAPACITY_H
+
+/* A 4 GB box gives the sculpture 2 GiB: a brick is a 4 KiB page, its entry (192 B) and a tree node (28 B), and a
+   patch with its vertices about as much again at usual occupancy: 2 GiB / 8.5 KiB = 250 thousand bricks, which at
+   170 stored corners a brick is 42 million corners. */
+#define CAPACITY_BRICKS 250000u
+
+/* Images of bricks as they were before the stroke: a stroke may touch the whole sculpture once. */
+#define CAPACITY_IMAGES CAPACITY_BRICKS
+
+/* Bricks marked dirty at one time: all of them (after a load), and the empty ones round them that an eraser passes. */
+#define CAPACITY_DIRT (2u * CAPACITY_BRICKS)
+
+/* Patches: one per brick, and one per empty brick whose cubes reach into a stored one. */
+#define CAPACITY_PATCHES (2u * CAPACITY_BRICKS)
+
+/* Bricks one dab may cover: a tool of 32 steps needs about 1,300; this is a tool of 128 steps. 6 KiB of scratch each. */
+#define CAPACITY_DAB_BRICKS 65536u
+
+#endif

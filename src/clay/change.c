@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "clay/change.h"
+
+#include <string.h>
+
+status change_init(change *c, uint32_t limit)
+{
+    c->recording = false;
+    status s = avl_init(&c->index, limit);
+    if (s != STATUS_OK)
+        return s;
+    s = pool_init(&c->images, sizeof(change_image), limit);
+    if (s != STATUS_OK)
+        avl_finish(&c->index);
+    return s;
+}
+
+void change_finish(change *c)
+{
+    avl_finish(&c->index);
+    pool_finish(&c->images);
+}
+
+void change_clear(change *c)
+{
+    avl_clear(&c->index);
+    pool_clear(&c->images);
+    c->recording = false;
+}
+
+status change_keep(change *c, key at, const brick_page *page, uint32_t *image_out)
+{
+    uint32_t id = avl_find(&c->index, at);
+    if (id == POOL_NONE) {
+        status s = pool_take(&c->images, &id);
+        if (s != STATUS_OK)
+            return s;
+        s = avl_insert(&c->index, at, id);
+        if (s != STATUS_OK) {
+            pool_give(&c->images, id);
+            return s;
+        }
+        change_image *image = (change_image *)pool_at(&c->images, id);
+        image->at = at;
+        if (page)
+            image->page = *page;
+        else
+            memset(&image->page, 0, sizeof image->page);
+    }
+    *image_out = id;
+    return STATUS_OK;
+}

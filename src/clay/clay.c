@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "clay/clay.h"
+
+#include "clay/capacity.h"
+#include "clay/colour.h"
+#include "clay/digest.h"
+
+#include <string.h>
+
+/* --- making and ending --- */
+
+status clay_init(clay *c, uint32_t bricks)
+{
+    assert(bricks >= 1 && bricks <= CAPACITY_BRICKS);
+    memset(c, 0, sizeof *c);
+    c->tree.root = POOL_NONE;
+    status s = avl_init(&c->tree, bricks);
+    if (s == STATUS_OK)
+        s = pool_init(&c->bricks, sizeof(brick), bricks);
+    if (s == STATUS_OK)
+        s = pool_init(&c->pages, sizeof(brick_page), bricks);
+    if (s == STATUS_OK)
+        s = change_init(&c->changes, (uint32_t)((uint64_t)bricks * CAPACITY_IMAGES / CAPACITY_BRICKS));
+    if (s == STATUS_OK)
+        s = dirt_init(&c->dirty, (uint32_t)((uint64_t)bricks * CAPACITY_DIRT / CAPACITY_BRICKS));
+    if (s != STATUS_OK)
+        clay_finish(c);
+    return s;
+}
+
+void clay_finish(clay *c)
+{
+    avl_finish(&c->tree);
+    pool_finish(&c->bricks);
+    pool_finish(&c->pages);
+    change_finish(&c->changes);
+    dirt_finish(&c->dirty);
+    c->corners = 0;
+}
+
+void clay_clear(clay *c)
+{
+    avl_clear(&c->tree);
+    pool_clear(&c->bricks);
+    pool_clear(&c->pages);
+    change_clear(&c->changes);
+    dirt_clear(&c->dirty);
+    c->corners = 0;
+}
+
+/* --- bricks come and go --- */
+
+static key neighbour_key(key at, int n) { return key_add(at, n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1); }
+
+void clay_neighbours(const clay *c, key brick_at, uint32_t ids_out[BRICK_NEIGHBOURS])
+{
+    uint32_t id = clay_find(c, brick_at);
+    if (id != POOL_NONE) {
+        memcpy(ids_out, clay_brick(c, id)->neighbour, sizeof(uint32_t) * BRICK_NEIGHBOURS);
+        return;
+    }
+    for (int n = 0; n < BRICK_NEIGHBOURS; n++)
+        ids_out[n] = clay_find(c, neighbour_key(brick_at, n));
+}
+
+/* A new brick's neighbours are most often each other's neighbours: from one stored one, links lead to those it shares
+   with the newcomer. Searching all 26 is plain and happens once per brick. */
+static void link_up(clay *c, uint32_t id)
+{
+    brick *b = clay_brick(c, id);
+    for (int n = 0; n < BRICK_NEIGHBOURS; n++) {
+        if (n == BRICK_SELF) {
+            b->neighbour[n] = id;
+            continue;
+        }
+        uint32_t other = clay_find(c, neighbour_key(b->at, n));
+        b->neighbour[n] = other;
+        if (other != POOL_NONE)
+            clay_brick(c, other)->neighbour[BRICK_NEIGHBOURS - 1 - n] = id;
+    }
+}
+
+static status brick_make(clay *c, key at, uint32_t *id_out)
+{
+    uint32_t id, page_id;
+    status s = pool_take(&c->bricks, &id);
+    if (s != STATUS_OK)
+        return s;
+    s = pool_take(&c->pages, &page_id);
+    if (s == STATUS_OK) {
+        s = avl_insert(&c->tree, at, id);
+        if (s != STATUS_OK)
+            pool_give(&c->pages, page_id);
+    }
+    brick *b = clay_brick(c, id);
+    if (s != STATUS_OK) {
+        b->page = NULL; /* or clay_digest would take it for a brick */
+        pool_give(&c->bricks, id);
+        return s;
+    }
+    *b = (brick){.at = at, .image = POOL_NONE, .page_id = page_id, .page = (brick_page *)pool_at(&c->pages, page_id)};
+    memset(b->page, 0, sizeof *b->page);
+    link_up(c, id);
+    *id_out = id;
+    return STATUS_OK;
+}
+
+static void brick_drop(clay *c, uint32_t id)
+{
+    brick *b = clay_brick(c, id);
+    assert(b->stored == 0);
+    for (int n = 0; n < BRICK_NEIGHBOURS; n++)
+        if (n != BRICK_SELF && b->neighbour[n] != POOL_NONE)
+            clay_brick(c, b->neighbour[n])->neighbour[BRICK_NEIGHBOURS - 1 - n] = POOL_NONE;
+    avl_remove(&c->tree, b->at);
+    b->page = NULL; /* how clay_digest knows a given-back brick */
+    pool_give(&c->pages, b->page_id);
+    pool_give(&c->bricks, id);
+}
+
+void clay_need_add(const clay *c, clay_need *need, key brick_at, bool opened)
+{
+    need->marks += avl_find(&c->dirty.index, brick_at) == POOL_NONE;
+    if (!opened)
+        return;
+    need->bricks += clay_find(c, brick_at) == POOL_NONE;
+    need->images += c->changes.recording && avl_find(&c->changes.index, brick_at) == POOL_NONE;
+}
+
+status clay_need_fits(const clay *c, const clay_need *need)
+{
+    uint64_t reserve = c->changes.recording ? change_count(&c->changes) + need->images : 0;
+    if (need->bricks > pool_room(&c->bricks) || need->images > pool_room(&c->changes.images))
+        return STATUS_POOL_FULL;
+    return need->marks + reserve > dirt_room(&c->dirty) ? STATUS_POOL_FULL : STATUS_OK;
+}
+
+status clay_room(const clay *c, uint64_t fresh, uint64_t touched)
+{
+    const clay_need need = {fresh, c->changes.recording ? touched : 0, touched};
+    return clay_need_fits(c, &need);
+}
+
+status clay_brick_open(clay *c, key brick_at, uint32_t *id_out)
+{
+    if (!key_brick_in_range(brick_at))
+        return STATUS_OUT_OF_RANGE;
+    uint32_t id = clay_find(c, brick_at);
+    bool fresh = id == POOL_NONE;
+    if (fresh) {
+        status s = brick_make(c, brick_at, &id);
+        if (s != STATUS_OK)
+            return s;
+    }
+    brick *b = clay_brick(c, id);
+    if (c->changes.recording && b->image == POOL_NONE) {
+        status s = change_keep(&c->changes, brick_at, fresh ? NULL : b->page, &b->image);
+        if (s != STATUS_OK) {
+            if (fresh)
+                brick_drop(c, id);
+            return s;
+        }
+    }
+    b->digest_known = false;
+    *id_out = id;
+    return STATUS_OK;
+}
+
+status clay_brick_close(clay *c, uint32_t id, const brick_mask *dirtied)
+{
+    brick *b = clay_brick(c, id);
+    brick_page *p = b->page;
+    uint32_t stored = 0;
+    for (int n = 0; n < BRICK_CORNERS; n++) {
+        float v = p->potential[n];
+        v = v > POTENTIAL_MAX ? POTENTIAL_MAX : v;
+        v = v > POTENTIAL_MIN ? v : POTENTIAL_MIN; /* NaN is not above the minimum either */
+        p->potential[n] = v;
+        p->rgba[n] = v > POTENTIAL_MIN ? p->rgba[n] : COLOUR_NONE;
+        stored += v > POTENTIAL_MIN;
+    }
+    c->corners += (uint64_t)stored - b->stored;
+    b->stored = stored;
+    return dirt_mark(&c->dirty, b->at, dirtied);
+}
+
+void clay_prune(clay *c)
+{
+    for (uint32_t n = 0; n < dirt_count(&c->dirty); n++) {
+        uint32_t id = clay_find(c, dirt_at(&c->dirty, n)->at);
+        if (id != POOL_NONE && clay_brick(c, id)->stored == 0)
+            brick_drop(c, id);
+    }
+}
+
+status clay_copy(clay *to, const clay *from)
+{
+    assert(clay_brick_count(to) == 0);
+    if (from->bricks.count > to->bricks.limit)
+        return STATUS_POOL_FULL;
+    avl_walk w;
+    key at;
+    uint32_t id;
+    for (bool more = avl_first(&w, &from->tree, &at, &id); more; more = avl_next(&w, &at, &id)) {
+        uint32_t copy;
+        status s = brick_make(to, at, &copy);
+        if (s != STATUS_OK) {
+            clay_clear(to);
+            return s;
+        }
+        const brick *b = clay_brick(from, id);
+        brick *d = clay_brick(to, copy);
+        *d->page = *b->page;
+        d->stored = b->stored;
+    }
+    to->corners = from->corners;
+    return STATUS_OK;
+}
+
+/* --- single corners --- */
+
+float clay_read(const clay *c, key corner, uint32_t *rgba_out)
+{
+    uint32_t id = clay_find(c, key_brick(corner));
+    if (id == POOL_NONE) {
+        if (rgba_out)
+            *rgba_out = COLOUR_NONE;
+        return POTENTIAL_MIN;
+    }
+    const brick_page *p = clay_brick(c, id)->page;
+    if (rgba_out)
+        *rgba_out = p->rgba[key_slot(corner)];
+    return p->potential[key_slot(corner)];
+}
+
+status clay_write(clay *c, key corner, float potential, uint32_t rgba)
+{
+    if (!key_in_range(corner))
+        return STATUS_OUT_OF_RANGE;
+    key at = key_brick(corner);
+    int slot = key_slot(corner);
+    bool opened = potential > POTENTIAL_MIN || clay_find(c, at) != POOL_NONE; /* nothing is removed from nothing */
+    clay_need need = {0, 0, 0};
+    clay_need_add(c, &need, at, opened);
+    status s = clay_need_fits(c, &need);
+    brick_mask m = {{0}};
+    brick_mask_set(&m, slot);
+    if (s == STATUS_OK)
+        s = dirt_mark(&c->dirty, at, &m); /* first, since closing cannot fail on a brick that is marked */
+    if (s != STATUS_OK || !opened)
+        return s;
+    uint32_t id;
+    s = clay_brick_open(c, at, &id);
+    if (s != STATUS_OK)
+        return s;
+    brick *b = clay_brick(c, id);
+    b->page->potential[slot] = potential;
+    b->page->rgba[slot] = rgba;
+    s = clay_brick_close(c, id, &m);
+    assert(s == STATUS_OK);
+    if (b->stored == 0)
+        brick_drop(c, id);
+    return s;
+}
+
+/* --- the change under way --- */
+
+void clay_change_begin(clay *c)
+{
+    assert(!c->changes.recording && change_count(&c->changes) == 0);
+    c->changes.recording = true;
+}
+
+/* Bricks that still stand must forget their images before those go. */
+static void images_forget(clay *c)
+{
+    for (uint32_t n = 0; n < change_count(&c->changes); n++) {
+        uint32_t id = clay_find(c, change_at(&c->changes, n)->at);
+        if (id != POOL_NONE)
+            clay_brick(c, id)->image = POOL_NONE;
+    }
+    change_clear(&c->changes);
+}
+
+static bool page_is_empty(const brick_page *p)
+{
+    for (int n = 0; n < BRICK_CORNERS; n++)
+        if (p->potential[n] > POTENTIAL_MIN)
+            return false;
+    return true;
+}
+
+void clay_change_revert(clay *c)
+{
+    const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    c->changes.recording = false;
+    /* Empty what was made since first, so that there is room to bring back what went. */
+    for (int pass = 0; pass < 2; pass++) {
+        for (uint32_t n = 0; n < change_count(&c->changes); n++) {
+            const change_image *image = change_at(&c->changes, n);
+            if (page_is_empty(&image->page) != (pass == 0))
+                continue;
+            if (pass == 0 && clay_find(c, image->at) == POOL_NONE)
+                continue;
+            uint32_t id;
+            status s = clay_brick_open(c, image->at, &id);
+            assert(s == STATUS_OK);
+            *clay_brick(c, id)->page = image->page;
+            s = clay_brick_close(c, id, &all);
+            assert(s == STATUS_OK);
+            (void)s;
+        }
+        clay_prune(c);
+    }
+    images_forget(c);
+}
+
+void clay_change_end(clay *c) { images_forget(c); }
+
+/* --- questions about the whole --- */
+
+static box brick_box(const brick *b)
+{
+    box r = box_empty();
+    key first = key_of_brick(b->at);
+    for (int n = 0; n < BRICK_CORNERS; n++)
+        if (b->page->potential[n] > POTENTIAL_MIN)
+            r = box_include(r, key_add(first, n >> 6, n >> 3 & 7, n & 7));
+    return r;
+}
+
+box clay_box(const clay *c)
+{
+    box r = box_empty();
+    avl_walk w;
+    key at;
+    uint32_t id;
+    for (bool more = avl_first(&w, &c->tree, &at, &id); more; more = avl_next(&w, &at, &id)) {
+        key first = key_of_brick(at);
+        if (!box_is_empty(r) && box_contains(r, first) && box_contains(r, key_add(first, 7, 7, 7)))
+            continue;
+        box b = brick_box(clay_brick(c, id));
+        if (!box_is_empty(b))
+            r = box_include(box_include(r, b.min), b.max);
+    }
+    return r;
+}
+
+uint64_t clay_digest(const clay *c)
+{
+    uint64_t sum = 0;
+    for (uint32_t id = 0, seen = 0; seen < c->bricks.count; id++) {
+        brick *b = clay_brick(c, id);
+        if (b->page == NULL)
+            continue;
+        seen++;
+        if (!b->digest_known) {
+            int32_t k[3] = {b->at.i, b->at.j, b->at.k};
+            b->digest = digest_bytes(b->page, sizeof *b->page, digest_bytes(k, sizeof k, 0));
+            b->digest_known = true;
+        }
+        sum += b->stored ? b->digest : 0;
+    }
+    return sum;
+}
+
+static bool brick_is_valid(const clay *c, uint32_t id)
+{
+    const brick *b = clay_brick(c, id);
+    uint32_t stored = 0;
+    for (int n = 0; n < BRICK_CORNERS; n++) {
+        float v = b->page->potential[n];
+        if (!(v >= POTENTIAL_MIN && v <= POTENTIAL_MAX) || (v == POTENTIAL_MIN && b->page->rgba[n] != COLOUR_NONE))
+            return false;
+        stored += v > POTENTIAL_MIN;
+    }
+    if (stored != b->stored || stored == 0)
+        return false;
+    for (int n = 0; n < BRICK_NEIGHBOURS; n++)
+        if (b->neighbour[n] != clay_find(c, neighbour_key(b->at, n)))
+            return false;
+    return true;
+}
+
+bool clay_is_valid(const clay *c)
+{
+    if (!avl_is_valid(&c->tree) || avl_count(&c->tree) != c->bricks.count || c->pages.count != c->bricks.count)
+        return false;
+    uint64_t corners = 0;
+    avl_walk w;
+    key at;
+    uint32_t id;
+    for (bool more = avl_first(&w, &c->tree, &at, &id); more; more = avl_next(&w, &at, &id)) {
+        if (!key_equal(clay_brick(c, id)->at, at) || !brick_is_valid(c, id))
+            return false;
+        corners += clay_brick(c, id)->stored;
+    }
+    return corners == c->corners;
+}

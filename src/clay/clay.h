@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:    Clay: a potential and a colour at every corner of an unbounded lattice, stored only where it is not empty.
+ *          Bricks of 8 x 8 x 8 corners in a pooled AVL tree, linked to their neighbours.
+ * Is not:  A surface (surface/), a tool (tool/), a position in millimetres (sculpture.h), a reconstruction between
+ *          corners (reconstruct.h), undo (history/).
+ * Shape:   corner (i,j,k) -> brick key (i>>3, j>>3, k>>3) -> page slot (i&7, j&7, k&7), k fastest. See brick.h.
+ *          Bulk writers speak brick by brick:
+ *
+ *              clay_brick_open -> write the page -> clay_brick_close   ... and clay_prune when all are closed
+ *
+ * Units:   lattice steps; potentials in [0, 3] (potential.h).
+ * Owner:   the caller owns the struct; clay owns bricks, pages, dirt and images. Page pointers hold until clay_prune.
+ * Errors:  STATUS_POOL_FULL, STATUS_NO_MEMORY, STATUS_OUT_OF_RANGE; the clay is then as it was.
+ * Cost:    a brick is found in O(log bricks), its neighbours in O(1).
+ * Source:  000 section 3.1, 002 section 3. We differ: the tree holds bricks, not corners; "less than minVal is removed"
+ *          is "at or under", since a corner that holds minVal cannot be told from an absent one.
+ */
+#ifndef GLAISE_CLAY_CLAY_H
+#define GLAISE_CLAY_CLAY_H
+
+#include "clay/brick.h"
+#include "clay/change.h"
+#include "clay/dirt.h"
+#include "clay/potential.h"
+#include "lattice/box.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct clay {
+    avl tree; /* brick key -> brick id */
+    pool bricks;
+    pool pages;
+    uint64_t corners; /* stored corners, over all bricks */
+    change changes; /* bricks as they were before the stroke under way */
+    dirt dirty;     /* corners dirtied since the surface was last brought up to date */
+} clay;
+
+/* Limit of bricks; the other limits follow from it by capacity.h's ratios. CAPACITY_BRICKS for a sculpture. */
+STATUS_CHECKED status clay_init(clay *c, uint32_t bricks);
+void clay_finish(clay *c);
+/* Empty, nothing dirty, nothing recorded. */
+void clay_clear(clay *c);
+/* to (initialised, empty) becomes a duplicate of from: bricks and pages; dirt and images are not copied. */
+STATUS_CHECKED status clay_copy(clay *to, const clay *from);
+
+/* --- single corners: for tests, loading, reading a point --- */
+
+/* Potential at a corner, POTENTIAL_MIN when absent; *rgba_out (may be NULL) COLOUR_NONE when absent. */
+float clay_read(const clay *c, key corner, uint32_t *rgba_out);
+/* Clamps to POTENTIAL_MAX, removes at or under POTENTIAL_MIN (NaN counts as that), marks dirt, gives an emptied brick back. */
+STATUS_CHECKED status clay_write(clay *c, key corner, float potential, uint32_t rgba);
+
+/* --- bricks --- */
+
+static inline uint32_t clay_find(const clay *c, key brick_at) { return avl_find(&c->tree, brick_at); }
+static inline brick *clay_brick(const clay *c, uint32_t id) { return (brick *)pool_at(&c->bricks, id); }
+static inline uint32_t clay_brick_count(const clay *c) { return c->bricks.count; }
+
+/* Can `fresh` new bricks be made, `touched` ones be recorded and marked? Ask before the first write of a dab. Takes every
+   touched brick for one that has neither image nor mark; clay_need counts those. */
+STATUS_CHECKED status clay_room(const clay *c, uint64_t fresh, uint64_t touched);
+
+/* What writing some bricks will take from the pools, to the last item: a stroke that stays where it is never runs out. */
+typedef struct clay_need {
+    uint64_t bricks, images, marks;
+} clay_need;
+
+/* Adds one brick, each once: `opened` says whether it will be opened (made if absent) or only its dirt marked. */
+void clay_need_add(const clay *c, clay_need *need, key brick_at, bool opened);
+/* STATUS_POOL_FULL unless there is room; a mark is kept in reserve for every image, so that the change can be reverted. */
+STATUS_CHECKED status clay_need_fits(const clay *c, const clay_need *need);
+/* Ids of the 27 bricks round a brick key, POOL_NONE where absent; by links when the brick itself is stored. */
+void clay_neighbours(const clay *c, key brick_at, uint32_t ids_out[BRICK_NEIGHBOURS]);
+
+/* Brick for writing; made empty if absent; its image is kept if a change is being recorded. */
+STATUS_CHECKED status clay_brick_open(clay *c, key brick_at, uint32_t *id_out);
+/* Ends writing: `dirtied` says which corners had a contribution. Restores the invariant of brick.h on all 512 corners
+   (clamps, removes, counts) and marks the dirt. Only that mark can fail, and not where the brick is marked already; the
+   page then stays as it was written, and putting it back is the caller's. */
+STATUS_CHECKED status clay_brick_close(clay *c, uint32_t id, const brick_mask *dirtied);
+/* Gives back every brick among those marked dirty that holds no corner any more. */
+void clay_prune(clay *c);
+
+/* --- the change under way --- */
+
+/* From now on the first opening of each brick keeps its image. Nothing may be recorded at this time. */
+void clay_change_begin(clay *c);
+/* Puts every brick back as its image has it, marks those bricks dirty, forgets the images. Cannot fail: the state it
+   restores had room. */
+void clay_change_revert(clay *c);
+void clay_change_end(clay *c); /* forgets the images */
+
+/* Smallest box of stored corners; empty when there are none. O(bricks). */
+box clay_box(const clay *c);
+/* Independent of the order in which the clay came to be; 0 when empty. O(bricks), pages hashed once per change. */
+uint64_t clay_digest(const clay *c);
+/* Every invariant of this header and of brick.h. O(corners): for tests. */
+bool clay_is_valid(const clay *c);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

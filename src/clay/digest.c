@@ -1,0 +1,7 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "clay/digest.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+uint64_t digest_bytes(const void *bytes, size_t n, uint64_t seed) { return XXH3_64bits_withSeed(bytes, n, seed); }

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "history/checkpoint.h"
+
+#include "clay/digest.h"
+#include "history/byte_order.h"
+#include "history/preamble.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum {
+    STEP_AT = 16,
+    SEQUENCE_AT = 24,
+    DAB_AT = 32,
+    BRICKS_AT = 40,
+    DIGEST_AT = 48,
+    BRICK_HEAD_BYTES = 80,
+    BRICK_COUNT_AT = 12,
+    BRICK_MASK_AT = 16,
+    CHECKSUM_BYTES = 8,
+    CORNER_BYTES = 8,
+    BRICK_BYTES_MAX = BRICK_HEAD_BYTES + BRICK_CORNERS * CORNER_BYTES + CHECKSUM_BYTES,
+    BLOCK_BYTES = 16384,
+};
+
+static const preamble header_preamble = {"glaise\r\n", CHECKPOINT_VERSION, CHECKPOINT_HEADER_BYTES};
+
+/* --- the pages to write, in key order --- */
+
+typedef struct page_walk {
+    const clay *c;
+    avl_walk bricks, images;
+    bool more_bricks, more_images;
+    key brick_at, image_at;
+    uint32_t brick_id, image_id;
+} page_walk;
+
+static void page_walk_begin(page_walk *w, const clay *c, bool before)
+{
+    w->c = c;
+    w->more_bricks = avl_first(&w->bricks, &c->tree, &w->brick_at, &w->brick_id);
+    w->more_images = before && avl_first(&w->images, &c->changes.index, &w->image_at, &w->image_id);
+}
+
+/* An image hides the brick of the same key. */
+static const brick_page *page_walk_next(page_walk *w, key *at_out)
+{
+    if (!w->more_bricks && !w->more_images)
+        return NULL;
+    int order = !w->more_images ? -1 : !w->more_bricks ? 1 : key_compare(w->brick_at, w->image_at);
+    const brick_page *page;
+    if (order < 0) {
+        page = clay_brick(w->c, w->brick_id)->page;
+        *at_out = w->brick_at;
+    } else {
+        page = &change_at(&w->c->changes, w->image_id)->page;
+        *at_out = w->image_at;
+    }
+    if (order <= 0)
+        w->more_bricks = avl_next(&w->bricks, &w->brick_at, &w->brick_id);
+    if (order >= 0)
+        w->more_images = avl_next(&w->images, &w->image_at, &w->image_id);
+    return page;
+}
+
+static uint32_t page_stored(const brick_page *p, brick_mask *mask_out)
+{
+    uint32_t stored = 0;
+    *mask_out = (brick_mask){{0}};
+    for (int n = 0; n < BRICK_CORNERS; n++)
+        if (p->potential[n] > POTENTIAL_MIN) {
+            brick_mask_set(mask_out, n);
+            stored++;
+        }
+    return stored;
+}
+
+/* --- writing --- */
+
+typedef struct writer {
+    checkpoint_sink sink;
+    void *self;
+    size_t used;
+    uint8_t block[BLOCK_BYTES];
+} writer;
+
+static status flush(writer *w)
+{
+    size_t n = w->used;
+    w->used = 0;
+    return n > 0 ? w->sink(w->self, w->block, n) : STATUS_OK;
+}
+
+static status put_header(writer *w, const checkpoint_facts *facts)
+{
+    uint8_t *h = w->block;
+    byte_order_put_double(h + STEP_AT, facts->step_mm);
+    byte_order_put_u64(h + SEQUENCE_AT, facts->sequence);
+    byte_order_put_u64(h + DAB_AT, facts->dab);
+    byte_order_put_u64(h + BRICKS_AT, facts->bricks);
+    byte_order_put_u64(h + DIGEST_AT, facts->digest);
+    preamble_seal(&header_preamble, h);
+    w->used = CHECKPOINT_HEADER_BYTES;
+    return STATUS_OK;
+}
+
+static status put_brick(writer *w, key at, const brick_page *p)
+{
+    brick_mask mask;
+    uint32_t stored = page_stored(p, &mask);
+    if (stored == 0)
+        return STATUS_OK;
+    if (BLOCK_BYTES - w->used < BRICK_BYTES_MAX) {
+        status s = flush(w);
+        if (s != STATUS_OK)
+            return s;
+    }
+    uint8_t *b = w->block + w->used;
+    byte_order_put_u32(b, (uint32_t)at.i);
+    byte_order_put_u32(b + 4, (uint32_t)at.j);
+    byte_order_put_u32(b + 8, (uint32_t)at.k);
+    byte_order_put_u32(b + BRICK_COUNT_AT, stored);
+    for (int n = 0; n < BRICK_EDGE; n++)
+        byte_order_put_u64(b + BRICK_MASK_AT + 8 * n, mask.slab[n]);
+    uint8_t *potential = b + BRICK_HEAD_BYTES, *rgba = potential + 4 * stored;
+    for (int n = 0; n < BRICK_CORNERS; n++)
+        if (brick_mask_has(&mask, n)) {
+            byte_order_put_float(potential, p->potential[n]);
+            byte_order_put_u32(rgba, p->rgba[n]);
+            potential += 4;
+            rgba += 4;
+        }
+    size_t vouched = BRICK_HEAD_BYTES + (size_t)stored * CORNER_BYTES;
+    byte_order_put_u64(b + vouched, digest_bytes(b, vouched, 0));
+    w->used += vouched + CHECKSUM_BYTES;
+    return STATUS_OK;
+}
+
+static status write_pages(const clay *c, checkpoint_facts facts, bool before, checkpoint_sink sink, void *self)
+{
+    page_walk walk;
+    key at;
+    const brick_page *p;
+    brick_mask mask;
+    facts.bricks = 0;
+    page_walk_begin(&walk, c, before);
+    while ((p = page_walk_next(&walk, &at)) != NULL)
+        facts.bricks += page_stored(p, &mask) > 0;
+
+    writer w;
+    w.sink = sink;
+    w.self = self;
+    status s = put_header(&w, &facts);
+    page_walk_begin(&walk, c, before);
+    while (s == STATUS_OK && (p = page_walk_next(&walk, &at)) != NULL)
+        s = put_brick(&w, at, p);
+    return s == STATUS_OK ? flush(&w) : s;
+}
+
+status checkpoint_write(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink, void *self)
+{
+    checkpoint_facts f = *facts;
+    f.digest = clay_digest(c);
+    return write_pages(c, f, false, sink, self);
+}
+
+status checkpoint_write_before(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink, void *self)
+{
+    assert(c->changes.recording);
+    return write_pages(c, *facts, true, sink, self);
+}
+
+/* --- reading --- */
+
+typedef struct reader {
+    checkpoint_source source;
+    void *self;
+    checkpoint_trouble *trouble;
+    uint64_t offset; /* in the file, of block[at] */
+    size_t at, have; /* block[at..have) is read and not yet taken */
+    uint8_t block[BLOCK_BYTES];
+} reader;
+
+static void reader_begin(reader *r, checkpoint_source source, void *self, checkpoint_trouble *trouble)
+{
+    r->source = source;
+    r->self = self;
+    r->trouble = trouble;
+    r->offset = 0;
+    r->at = r->have = 0;
+    *trouble = (checkpoint_trouble){0, ""};
+}
+
+static status refuse(reader *r, status s, uint64_t offset, const char *expected)
+{
+    r->trouble->offset = offset;
+    snprintf(r->trouble->expected, sizeof r->trouble->expected, "%s", expected);
+    return s;
+}
+
+static size_t reader_has(const reader *r) { return r->have - r->at; }
+static const uint8_t *reader_bytes(const reader *r) { return r->block + r->at; }
+
+static void reader_take(reader *r, size_t n)
+{
+    r->at += n;
+    r->offset += n;
+}
+
+/* Up to n bytes in one piece; fewer only when the file ends. */
+static status reader_fill(reader *r, size_t n)
+{
+    if (reader_has(r) >= n)
+        return STATUS_OK;
+    memmove(r->block, r->block + r->at, reader_has(r));
+    r->have -= r->at;
+    r->at = 0;
+    while (r->have < n) {
+        size_t got = 0;
+        status s = r->source(r->self, r->offset + r->have, r->block + r->have, BLOCK_BYTES - r->have, &got);
+        if (s != STATUS_OK)
+            return refuse(r, s, r->offset + r->have, "readable bytes");
+        if (got == 0)
+            break;
+        r->have += got;
+    }
+    return STATUS_OK;
+}
+
+static status get_header(reader *r, checkpoint_facts *f)
+{
+    status s = reader_fill(r, PREAMBLE_HEADER_BYTES_MAX);
+    if (s != STATUS_OK)
+        return s;
+    const uint8_t *h = reader_bytes(r);
+    preamble_trouble why;
+    s = preamble_check(&header_preamble, h, reader_has(r), &why);
+    if (s != STATUS_OK)
+        return refuse(r, s, why.offset, why.expected);
+    f->step_mm = byte_order_get_double(h + STEP_AT);
+    f->sequence = byte_order_get_u64(h + SEQUENCE_AT);
+    f->dab = byte_order_get_u64(h + DAB_AT);
+    f->bricks = byte_order_get_u64(h + BRICKS_AT);
+    f->digest = byte_order_get_u64(h + DIGEST_AT);
+    if (!isfinite(f->step_mm) || f->step_mm <= 0)
+        return refuse(r, STATUS_CORRUPT, STEP_AT, "a finite step above zero");
+    reader_take(r, CHECKPOINT_HEADER_BYTES);
+    return STATUS_OK;
+}
+
+static bool brick_in_range(key at)
+{
+    const key lowest = {KEY_MIN, KEY_MIN, KEY_MIN}, highest = {KEY_MAX, KEY_MAX, KEY_MAX};
+    const box storable = {key_brick(lowest), key_brick(highest)};
+    return box_contains(storable, at);
+}
+
+/* Moves the brick's corners to an empty page; false at a potential that no stored corner can have. */
+static bool fill_page(brick_page *p, const brick_mask *mask, const uint8_t *corners, uint32_t stored)
+{
+    const uint8_t *potential = corners, *rgba = corners + (size_t)4 * stored;
+    for (int n = 0; n < BRICK_CORNERS; n++) {
+        if (!brick_mask_has(mask, n))
+            continue;
+        float v = byte_order_get_float(potential);
+        if (!(v > POTENTIAL_MIN && v <= POTENTIAL_MAX))
+            return false;
+        p->potential[n] = v;
+        p->rgba[n] = byte_order_get_u32(rgba);
+        potential += 4;
+        rgba += 4;
+    }
+    return true;
+}
+
+/* Key, count and mask of the next brick, whose bytes are then in one piece and match their checksum. */
+static status get_brick_head(reader *r, key *at_out, brick_mask *mask_out, uint32_t *stored_out)
+{
+    status s = reader_fill(r, BRICK_HEAD_BYTES);
+    if (s != STATUS_OK)
+        return s;
+    if (reader_has(r) < BRICK_HEAD_BYTES)
+        return refuse(r, STATUS_CORRUPT, r->offset + reader_has(r), "the rest of a brick");
+    const uint8_t *b = reader_bytes(r);
+    uint32_t stored = byte_order_get_u32(b + BRICK_COUNT_AT), marked = 0;
+    for (int n = 0; n < BRICK_EDGE; n++) {
+        mask_out->slab[n] = byte_order_get_u64(b + BRICK_MASK_AT + 8 * n);
+        marked += (uint32_t)__builtin_popcountll(mask_out->slab[n]);
+    }
+    if (stored < 1 || stored > BRICK_CORNERS || stored != marked)
+        return refuse(r, STATUS_CORRUPT, r->offset + BRICK_COUNT_AT, "1 to 512 corners, as many as the mask has");
+    size_t vouched = BRICK_HEAD_BYTES + (size_t)stored * CORNER_BYTES;
+    s = reader_fill(r, vouched + CHECKSUM_BYTES);
+    if (s != STATUS_OK)
+        return s;
+    if (reader_has(r) < vouched + CHECKSUM_BYTES)
+        return refuse(r, STATUS_CORRUPT, r->offset + reader_has(r), "the rest of a brick");
+    b = reader_bytes(r);
+    if (byte_order_get_u64(b + vouched) != digest_bytes(b, vouched, 0))
+        return refuse(r, STATUS_CORRUPT, r->offset + vouched, "the checksum of this brick");
+    *at_out = (key){(int32_t)byte_order_get_u32(b), (int32_t)byte_order_get_u32(b + 4),
+                    (int32_t)byte_order_get_u32(b + 8)};
+    *stored_out = stored;
+    return STATUS_OK;
+}
+
+static status get_bricks(reader *r, const checkpoint_facts *f, clay *fresh)
+{
+    key last = {0, 0, 0};
+    for (uint64_t n = 0; n < f->bricks; n++) {
+        key at;
+        brick_mask mask;
+        uint32_t stored, id;
+        status s = get_brick_head(r, &at, &mask, &stored);
+        if (s != STATUS_OK)
+            return s;
+        if (!brick_in_range(at))
+            return refuse(r, STATUS_CORRUPT, r->offset, "a brick key within the lattice");
+        if (n > 0 && key_compare(last, at) >= 0)
+            return refuse(r, STATUS_CORRUPT, r->offset, "a brick key above the one before");
+        last = at;
+        s = clay_brick_open(fresh, at, &id);
+        if (s != STATUS_OK)
+            return refuse(r, s, r->offset, "room for one more brick");
+        if (!fill_page(clay_brick(fresh, id)->page, &mask, reader_bytes(r) + BRICK_HEAD_BYTES, stored))
+            return refuse(r, STATUS_CORRUPT, r->offset + BRICK_HEAD_BYTES, "potentials above 0, up to 3");
+        s = clay_brick_close(fresh, id, &mask);
+        if (s != STATUS_OK)
+            return refuse(r, s, r->offset, "room for one more brick");
+        reader_take(r, BRICK_HEAD_BYTES + (size_t)stored * CORNER_BYTES + CHECKSUM_BYTES);
+    }
+    status s = reader_fill(r, 1);
+    if (s == STATUS_OK && reader_has(r) > 0)
+        s = refuse(r, STATUS_CORRUPT, r->offset, "the end of the file");
+    if (s == STATUS_OK && clay_digest(fresh) != f->digest)
+        s = refuse(r, STATUS_CORRUPT, DIGEST_AT, "the digest of the clay that follows");
+    return s;
+}
+
+/* What is about to go must be looked at again, and so must whatever was still waiting to be looked at. */
+static status mark_old(const clay *old, clay *fresh)
+{
+    const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    status s = STATUS_OK;
+    for (uint32_t n = 0; s == STATUS_OK && n < dirt_count(&old->dirty); n++)
+        s = dirt_mark(&fresh->dirty, dirt_at(&old->dirty, n)->at, &dirt_at(&old->dirty, n)->corners);
+    avl_walk w;
+    key at;
+    uint32_t id;
+    bool more = avl_first(&w, &old->tree, &at, &id);
+    for (; s == STATUS_OK && more; more = avl_next(&w, &at, &id))
+        s = dirt_mark(&fresh->dirty, at, &all);
+    return s;
+}
+
+status checkpoint_read(clay *c, checkpoint_facts *facts_out, checkpoint_source source, void *self,
+                       checkpoint_trouble *trouble_out)
+{
+    assert(!c->changes.recording);
+    reader r;
+    checkpoint_facts facts;
+    reader_begin(&r, source, self, trouble_out);
+    status s = get_header(&r, &facts);
+    if (s != STATUS_OK)
+        return s;
+    if (facts.bricks > c->bricks.limit)
+        return refuse(&r, STATUS_POOL_FULL, BRICKS_AT, "no more bricks than this sculpture may have");
+    clay fresh;
+    s = clay_init(&fresh, c->bricks.limit);
+    if (s != STATUS_OK)
+        return s;
+    s = get_bricks(&r, &facts, &fresh);
+    if (s == STATUS_OK)
+        s = mark_old(c, &fresh);
+    if (s != STATUS_OK) {
+        clay_finish(&fresh);
+        return s;
+    }
+    clay_finish(c);
+    *c = fresh;
+    *facts_out = facts;
+    return STATUS_OK;
+}
+
+status checkpoint_read_facts(checkpoint_facts *facts_out, checkpoint_source source, void *self,
+                             checkpoint_trouble *trouble_out)
+{
+    reader r;
+    checkpoint_facts facts;
+    reader_begin(&r, source, self, trouble_out);
+    status s = get_header(&r, &facts);
+    if (s == STATUS_OK)
+        *facts_out = facts;
+    return s;
+}

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:    The whole field as bytes: the native sculpture file, and what history rests on. One format for both.
+ * Is not:  A mesh (exchange); the ring of undo-files (history.h).
+ * Shape:   little-endian, version 1:
+ *            offset size
+ *                 0    8  "glaise\r\n"
+ *                 8    4  version (1)
+ *                12    4  header bytes (64; preamble.h says what later versions keep)
+ *                16    8  step of the lattice, mm, IEEE double
+ *                24    8  sequence: number of the last stroke in it (0: none)
+ *                32    8  dab number
+ *                40    8  bricks that follow
+ *                48    8  clay_digest of the whole
+ *                56    8  XXH3-64 of bytes 0..55
+ *          then per brick, in key order:
+ *                 0   12  brick key: i, j, k as int32
+ *                12    4  stored corners n (1..512)
+ *                16   64  which corners: the 8 words of a brick_mask
+ *                80   4n  potentials, in slot order
+ *            80+4n    4n  RGBA8
+ *            80+8n     8  XXH3-64 of bytes 0..80+8n-1 of this brick
+ *          and nothing after the last brick. The same field always gives the same bytes.
+ * Units:   the step in millimetres, keys in lattice steps.
+ * Owner:   the caller gives a sink or a source; nothing is kept.
+ * Errors:  STATUS_CORRUPT, STATUS_NEWER with the place and what was expected in `trouble`; STATUS_POOL_FULL when the
+ *          clay's limit is below what the file holds; the clay is then untouched (reading goes into a clay of its own
+ *          first). Hostile counts never allocate more than the bytes could hold.
+ * Cost:    one pass through a block of 16 KiB on the stack. Reading holds the old clay and the new until the end.
+ * Source:  000 section 2 ("an internal format which writes the whole field").
+ */
+#ifndef GLAISE_HISTORY_CHECKPOINT_H
+#define GLAISE_HISTORY_CHECKPOINT_H
+
+#include "clay/clay.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CHECKPOINT_VERSION = 1, CHECKPOINT_HEADER_BYTES = 64 };
+
+typedef struct checkpoint_facts {
+    double step_mm;
+    uint64_t sequence;
+    uint64_t dab;
+    uint64_t bricks; /* filled when read */
+    uint64_t digest; /* filled when read; checkpoint_write_before is given it */
+} checkpoint_facts;
+
+/* Where and why reading stopped. */
+typedef struct checkpoint_trouble {
+    uint64_t offset;
+    char expected[80]; /* "brick key above the one before", ... */
+} checkpoint_trouble;
+
+/* Takes n bytes, in order; anything but STATUS_OK ends the writing. */
+typedef status (*checkpoint_sink)(void *self, const void *bytes, size_t n);
+/* Gives up to n bytes from offset, fewer only at the end. */
+typedef status (*checkpoint_source)(void *self, uint64_t offset, void *bytes, size_t n, size_t *got_out);
+
+STATUS_CHECKED status checkpoint_write(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink, void *self);
+/* The clay as it was when the change now being recorded began; facts->digest is clay_digest as it was then. */
+STATUS_CHECKED status checkpoint_write_before(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink,
+                                              void *self);
+/* Into an initialised clay, whose content is replaced whole or not at all (its limit stays). Every corner that is stored,
+   and every brick that was, is marked dirty. Nothing may be recorded at this time. */
+STATUS_CHECKED status checkpoint_read(clay *c, checkpoint_facts *facts_out, checkpoint_source source, void *self,
+                                      checkpoint_trouble *trouble_out);
+/* The header alone. */
+STATUS_CHECKED status checkpoint_read_facts(checkpoint_facts *facts_out, checkpoint_source source, void *self,
+                                            checkpoint_trouble *trouble_out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "history/undo_ring.h"
+
+#include <stdio.h>
+
+undo_ring_name undo_ring_name_of(uint32_t ring, uint64_t stroke)
+{
+    undo_ring_name name;
+    snprintf(name.text, sizeof name.text, "undo-%04u", (unsigned)(stroke % ring % 10000u));
+    return name;
+}
+
+status undo_ring_look(undo_ring_slot *slot_out, const byte_store *store, uint32_t ring, uint64_t stroke)
+{
+    *slot_out = (undo_ring_slot){.state = UNDO_RING_UNREADABLE};
+    undo_ring_name name = undo_ring_name_of(ring, stroke);
+    uint64_t size = 0;
+    bool exists = false;
+    if (store->size(store->self, name.text, &size, &exists) != STATUS_OK)
+        return STATUS_OK;
+    if (!exists) {
+        slot_out->state = UNDO_RING_ABSENT;
+        return STATUS_OK;
+    }
+    uint8_t header[PREAMBLE_HEADER_BYTES_MAX];
+    size_t have = 0;
+    if (store->read(store->self, name.text, 0, header, sizeof header, &have) != STATUS_OK)
+        return STATUS_OK;
+    status s = undo_file_read_facts(&slot_out->facts, header, have, &slot_out->trouble);
+    if (s == STATUS_NEWER)
+        return s;
+    if (s == STATUS_OK && slot_out->facts.bytes != size) {
+        slot_out->trouble = (preamble_trouble){size, "as many bytes as the header says"};
+        s = STATUS_CORRUPT;
+    }
+    slot_out->state = s == STATUS_OK ? UNDO_RING_GOOD : UNDO_RING_DAMAGED;
+    return STATUS_OK;
+}

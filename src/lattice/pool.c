@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "lattice/pool.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SLAB_TARGET_BYTES = 256 * 1024, ALIGNMENT = 64 };
+
+static uint32_t slab_items(const pool *p) { return 1u << p->slab_shift; }
+static uint32_t slab_total(const pool *p)
+{
+    return (uint32_t)(((uint64_t)p->limit + slab_items(p) - 1) >> p->slab_shift);
+}
+
+status pool_init(pool *p, size_t item_bytes, uint32_t limit)
+{
+    assert(item_bytes >= sizeof(uint32_t) && limit >= 1 && limit < POOL_NONE);
+    memset(p, 0, sizeof *p);
+    p->item_bytes = (item_bytes + 7) & ~(size_t)7;
+    p->limit = limit;
+    p->free_head = POOL_NONE;
+    while (((size_t)2 << p->slab_shift) * p->item_bytes <= SLAB_TARGET_BYTES && slab_items(p) < limit)
+        p->slab_shift++;
+    p->slabs = (void **)calloc(slab_total(p), sizeof *p->slabs);
+    return p->slabs ? STATUS_OK : STATUS_NO_MEMORY;
+}
+
+void pool_finish(pool *p)
+{
+    if (p->slabs)
+        for (uint32_t s = 0; s < slab_total(p); s++)
+            free(p->slabs[s]);
+    free(p->slabs);
+    memset(p, 0, sizeof *p);
+}
+
+status pool_take(pool *p, uint32_t *id_out)
+{
+    if (p->free_head != POOL_NONE) {
+        *id_out = p->free_head;
+        memcpy(&p->free_head, pool_at(p, *id_out), sizeof p->free_head);
+        p->count++;
+        return STATUS_OK;
+    }
+    if (p->fresh == p->limit)
+        return STATUS_POOL_FULL;
+    void **slab = &p->slabs[p->fresh >> p->slab_shift];
+    if (!*slab) {
+        size_t bytes = slab_items(p) * p->item_bytes;
+        *slab = aligned_alloc(ALIGNMENT, (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
+        if (!*slab)
+            return STATUS_NO_MEMORY;
+    }
+    *id_out = p->fresh++;
+    p->count++;
+    return STATUS_OK;
+}
+
+void pool_give(pool *p, uint32_t id)
+{
+    assert(p->count > 0);
+    memcpy(pool_at(p, id), &p->free_head, sizeof p->free_head);
+    p->free_head = id;
+    p->count--;
+}
+
+void pool_clear(pool *p)
+{
+    p->fresh = 0;
+    p->count = 0;
+    p->free_head = POOL_NONE;
+}
+
+size_t pool_bytes(const pool *p)
+{
+    size_t bytes = 0;
+    for (uint32_t s = 0; s < slab_total(p); s++)
+        if (p->slabs[s])
+            bytes += slab_items(p) * p->item_bytes;
+    return bytes;
+}

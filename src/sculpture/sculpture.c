@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "sculpture/sculpture.h"
+
+#include "clay/digest.h"
+
+#include <string.h>
+
+/* --- opening and closing --- */
+
+static status rooms_init(sculpture *s, uint32_t bricks)
+{
+    status outcome = clay_init(&s->clay, bricks);
+    if (outcome == STATUS_OK)
+        outcome = surface_init(&s->surface, (uint32_t)((uint64_t)bricks * CAPACITY_PATCHES / CAPACITY_BRICKS));
+    if (outcome == STATUS_OK)
+        outcome = tool_scratch_init(&s->scratch, CAPACITY_DAB_BRICKS);
+    return outcome;
+}
+
+static void rooms_finish(sculpture *s)
+{
+    tool_scratch_finish(&s->scratch);
+    surface_finish(&s->surface);
+    clay_finish(&s->clay);
+}
+
+status sculpture_open(sculpture *s, const byte_store *store, uint32_t bricks, uint32_t ring, double step_mm,
+                      history_finding *finding_out)
+{
+    memset(s, 0, sizeof *s);
+    finding_out->text[0] = '\0';
+    if (!(step_mm >= SCULPTURE_STEP_MM_MIN && step_mm <= SCULPTURE_STEP_MM_MAX) || bricks < 1 ||
+        bricks > CAPACITY_BRICKS || ring < 1 || ring > HISTORY_RING_MAX)
+        return STATUS_BAD_PARAMETER;
+    s->step_mm = step_mm;
+    status outcome = rooms_init(s, bricks);
+    if (outcome == STATUS_OK && store) {
+        outcome = history_open(&s->history, *store, ring, step_mm, &s->clay, finding_out);
+        s->has_history = outcome == STATUS_OK;
+    }
+    if (outcome == STATUS_OK && s->has_history) {
+        surface_counts counts;
+        s->step_mm = s->history.step_mm;
+        s->dab = s->history.dab;
+        outcome = surface_rebuild(&s->surface, &s->clay, &counts);
+        dirt_clear(&s->clay.dirty);
+    }
+    if (outcome != STATUS_OK) {
+        if (s->has_history)
+            history_close(&s->history);
+        rooms_finish(s);
+    }
+    return outcome;
+}
+
+status sculpture_close(sculpture *s)
+{
+    status outcome = STATUS_OK;
+    if (s->in_stroke)
+        outcome = sculpture_stroke_end(s);
+    if (s->has_history) {
+        if (s->history.checkpoint != s->history.cursor) {
+            status written = history_checkpoint(&s->history, &s->clay);
+            outcome = outcome == STATUS_OK ? written : outcome;
+        }
+        history_close(&s->history);
+    }
+    rooms_finish(s);
+    return outcome;
+}
+
+/* --- strokes --- */
+
+void sculpture_stroke_begin(sculpture *s)
+{
+    assert(!s->in_stroke);
+    clay_change_begin(&s->clay);
+    s->in_stroke = true;
+}
+
+/* The clay goes back to before the stroke, and the surface with it: what it showed then fits. */
+static void stroke_revert(sculpture *s)
+{
+    surface_counts counts;
+    clay_change_revert(&s->clay);
+    status outcome = surface_update(&s->surface, &s->clay, &counts);
+    if (outcome != STATUS_OK)
+        outcome = surface_rebuild(&s->surface, &s->clay, &counts);
+    assert(outcome == STATUS_OK);
+    (void)outcome;
+    dirt_clear(&s->clay.dirty);
+    s->in_stroke = false;
+}
+
+status sculpture_apply_field(sculpture *s, const tool *t, const sculpture_dab *d, tool_counts *counts_out)
+{
+    assert(s->in_stroke);
+    tool_dab dab = {.amount = d->rate * d->seconds, .number = s->dab};
+    for (int c = 0; c < 3; c++) {
+        dab.at.origin[c] = d->at_world.origin[c] / s->step_mm;
+        for (int a = 0; a < 3; a++)
+            dab.at.axis[a][c] = d->at_world.axis[a][c] / s->step_mm;
+    }
+    status outcome = tool_apply(t, &dab, &s->clay, &s->scratch, counts_out);
+    if (outcome == STATUS_OK)
+        s->dab++;
+    return outcome;
+}
+
+status sculpture_apply_surface(sculpture *s, surface_counts *counts_out)
+{
+    status outcome = surface_update(&s->surface, &s->clay, counts_out);
+    if (outcome == STATUS_OK)
+        dirt_clear(&s->clay.dirty);
+    else if (s->in_stroke)
+        stroke_revert(s);
+    return outcome;
+}
+
+status sculpture_apply(sculpture *s, const tool *t, const sculpture_dab *d, sculpture_counts *counts_out)
+{
+    memset(counts_out, 0, sizeof *counts_out);
+    status outcome = sculpture_apply_field(s, t, d, &counts_out->tool);
+    return outcome == STATUS_OK ? sculpture_apply_surface(s, &counts_out->surface) : outcome;
+}
+
+status sculpture_stroke_end(sculpture *s)
+{
+    assert(s->in_stroke);
+    bool changed = change_count(&s->clay.changes) > 0;
+    if (s->has_history) {
+        s->history.dab = s->dab;
+        status outcome = history_commit(&s->history, &s->clay);
+        if (outcome != STATUS_OK) {
+            stroke_revert(s);
+            return outcome;
+        }
+    } else {
+        clay_change_end(&s->clay);
+    }
+    s->in_stroke = false;
+    s->strokes += changed;
+    return STATUS_OK;
+}
+
+static status step_through(sculpture *s, status (*step)(history *, clay *))
+{
+    assert(!s->in_stroke);
+    if (!s->has_history)
+        return STATUS_HISTORY_ENDS;
+    status outcome = step(&s->history, &s->clay);
+    if (outcome != STATUS_OK)
+        return outcome;
+    surface_counts counts;
+    return sculpture_apply_surface(s, &counts);
+}
+
+status sculpture_undo(sculpture *s) { return step_through(s, history_undo); }
+status sculpture_redo(sculpture *s) { return step_through(s, history_redo); }
+
+/* --- the piece as a whole --- */
+
+status sculpture_duplicate(const sculpture *s, freeform *tool_out) { return freeform_init(tool_out, &s->clay); }
+
+static const brick_mask every_corner = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+
+static status brick_set(clay *c, key at, const brick_page *page)
+{
+    uint32_t id;
+    status outcome = clay_brick_open(c, at, &id);
+    if (outcome != STATUS_OK)
+        return outcome;
+    if (page)
+        *clay_brick(c, id)->page = *page;
+    else
+        memset(clay_brick(c, id)->page, 0, sizeof(brick_page));
+    return clay_brick_close(c, id, &every_corner);
+}
+
+/* Sets the clay brick by brick to what `with` holds; NULL empties it. Part of a stroke. */
+static status clay_replace(clay *c, const clay *with)
+{
+    avl_walk w;
+    key at;
+    uint32_t id;
+    status outcome = STATUS_OK;
+    for (bool more = avl_first(&w, &c->tree, &at, &id); more && outcome == STATUS_OK; more = avl_next(&w, &at, &id))
+        if (!with || clay_find(with, at) == POOL_NONE)
+            outcome = brick_set(c, at, NULL);
+    clay_prune(c);
+    if (!with || outcome != STATUS_OK)
+        return outcome;
+    for (bool more = avl_first(&w, &with->tree, &at, &id); more && outcome == STATUS_OK; more = avl_next(&w, &at, &id))
+        outcome = brick_set(c, at, clay_brick(with, id)->page);
+    return outcome;
+}
+
+static status replace_as_stroke(sculpture *s, const clay *with)
+{
+    surface_counts counts;
+    sculpture_stroke_begin(s);
+    status outcome = clay_replace(&s->clay, with);
+    if (outcome != STATUS_OK) {
+        stroke_revert(s);
+        return outcome;
+    }
+    outcome = sculpture_apply_surface(s, &counts);
+    return outcome == STATUS_OK ? sculpture_stroke_end(s) : outcome;
+}
+
+status sculpture_clear(sculpture *s) { return replace_as_stroke(s, NULL); }
+
+status sculpture_write(const sculpture *s, checkpoint_sink sink, void *self)
+{
+    const checkpoint_facts facts = {.step_mm = s->step_mm, .dab = s->dab};
+    return checkpoint_write(&s->clay, &facts, sink, self);
+}
+
+status sculpture_read(sculpture *s, checkpoint_source source, void *self, checkpoint_trouble *trouble_out)
+{
+    clay read;
+    checkpoint_facts facts;
+    status outcome = clay_init(&read, s->clay.bricks.limit);
+    if (outcome != STATUS_OK)
+        return outcome;
+    outcome = checkpoint_read(&read, &facts, source, self, trouble_out);
+    bool fresh = !s->has_history && clay_brick_count(&s->clay) == 0;
+    if (outcome == STATUS_OK && !fresh && facts.step_mm != s->step_mm)
+        outcome = STATUS_BAD_PARAMETER;
+    if (outcome == STATUS_OK)
+        outcome = replace_as_stroke(s, &read);
+    if (outcome == STATUS_OK && fresh)
+        s->step_mm = facts.step_mm;
+    clay_finish(&read);
+    return outcome;
+}
+
+uint64_t sculpture_digest(const sculpture *s)
+{
+    return digest_bytes(&s->step_mm, sizeof s->step_mm, clay_digest(&s->clay));
+}

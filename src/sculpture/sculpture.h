@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:    The one door to the engine: a piece of clay with its surface and its history. Strokes are begun, dabbed and
+ *          ended here; undo, redo, patches, meshes, files and digests are asked for here.
+ * Is not:  The person's state (station: what is moved, which tool is in the hand); drawing (view); files other programs
+ *          read (exchange).
+ * Shape:   world = step_mm * key: corner (i,j,k) lies at (i, j, k) * step_mm. A dab goes tool -> clay -> surface in one call,
+ *          so patches are always those of the clay.
+ * Units:   millimetres and seconds outside, lattice steps inside.
+ * Owner:   the caller owns the struct (large: keep it on the heap); the byte store must outlive it.
+ * Errors:  a refused dab leaves the clay as before the dab; a refused stroke (surface or history failed) as before the
+ *          stroke, and the stroke is over. The status says why.
+ * Cost:    see tool.h, surface.h, history.h; sculpture adds nothing per corner.
+ * Source:  000 sections 3 and 4.
+ */
+#ifndef GLAISE_SCULPTURE_SCULPTURE_H
+#define GLAISE_SCULPTURE_SCULPTURE_H
+
+#include "clay/capacity.h"
+#include "clay/colour.h"
+#include "clay/reconstruct.h"
+#include "history/history.h"
+#include "surface/mesh.h"
+#include "surface/surface.h"
+#include "tool/ellipsoid.h"
+#include "tool/freeform.h"
+#include "tool/tool.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SCULPTURE_STEP_MM_DEFAULT 1.0
+#define SCULPTURE_STEP_MM_MIN 1e-3
+#define SCULPTURE_STEP_MM_MAX 1e3
+
+typedef struct sculpture {
+    double step_mm;
+    struct clay clay;
+    struct surface surface;
+    tool_scratch scratch;
+    struct history history;
+    bool has_history; /* false: no store was given, a stroke cannot be undone */
+    bool in_stroke;
+    uint64_t dab;     /* number of the next dab */
+    uint64_t strokes; /* ended with a change since opening */
+} sculpture;
+
+/* A dab as the station gives it: world space, per second. */
+typedef struct sculpture_dab {
+    frame at_world;     /* mm */
+    double rate;        /* potential per second (parts per second for smooth, stamp, print, painter) */
+    double seconds;     /* since the dab before */
+} sculpture_dab;
+
+typedef struct sculpture_counts {
+    tool_counts tool;
+    surface_counts surface;
+} sculpture_counts;
+
+/* store NULL: no history. bricks, ring: limits (CAPACITY_BRICKS, HISTORY_RING_DEFAULT). */
+STATUS_CHECKED status sculpture_open(sculpture *s, const byte_store *store, uint32_t bricks, uint32_t ring, double step_mm,
+                                     history_finding *finding_out);
+/* Writes a checkpoint when there is a store and something changed. The struct is finished whatever the answer. */
+STATUS_CHECKED status sculpture_close(sculpture *s);
+
+void sculpture_stroke_begin(sculpture *s);
+STATUS_CHECKED status sculpture_apply(sculpture *s, const tool *t, const sculpture_dab *d, sculpture_counts *counts_out);
+/* The two halves of sculpture_apply, for those who time them apart: the field, then the surface. */
+STATUS_CHECKED status sculpture_apply_field(sculpture *s, const tool *t, const sculpture_dab *d, tool_counts *counts_out);
+STATUS_CHECKED status sculpture_apply_surface(sculpture *s, surface_counts *counts_out);
+STATUS_CHECKED status sculpture_stroke_end(sculpture *s);
+
+STATUS_CHECKED status sculpture_undo(sculpture *s);
+STATUS_CHECKED status sculpture_redo(sculpture *s);
+
+/* Makes the clay as it is now a tool (freeform.h). */
+STATUS_CHECKED status sculpture_duplicate(const sculpture *s, freeform *tool_out);
+/* Empties the clay as one stroke, so that it can be undone. Not during a stroke. */
+STATUS_CHECKED status sculpture_clear(sculpture *s);
+
+/* Native file: the whole field. Reading replaces the clay whole as one stroke, or not at all; a step other than the
+   sculpture's is STATUS_BAD_PARAMETER unless the sculpture is empty and keeps no history (then it takes the step). */
+STATUS_CHECKED status sculpture_write(const sculpture *s, checkpoint_sink sink, void *self);
+STATUS_CHECKED status sculpture_read(sculpture *s, checkpoint_source source, void *self, checkpoint_trouble *trouble_out);
+
+/* Field and step. The mesh's own is surface_digest(&s->surface). */
+uint64_t sculpture_digest(const sculpture *s);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,492 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "station/station.h"
+
+#include "station/angle.h"
+#include "station/hand.h"
+
+#include <algorithm>
+#include <deque>
+
+namespace {
+
+enum moved_thing { MOVED_NOTHING, MOVED_SCENE, MOVED_TOOL, MOVED_LIGHT0 };
+enum meaning { MEANS_NOTHING, MEANS_APPLY, MEANS_UNDO, MEANS_REDO, MEANS_CLUTCH, MEANS_NEXT_ACTION };
+
+constexpr int PUCKS = 8, PEDALS = 8, BUTTONS = 32;
+constexpr double CAMERA_AT_REST_MM = 200; /* speeds are meant at this distance and scale with it */
+constexpr double MOUSE_RADIANS_A_PIXEL = 0.006, MOUSE_PART_A_PIXEL = 0.001, WHEEL_PART_A_NOTCH = 0.05;
+constexpr size_t MESSAGES_MAX = 100;
+
+double radians_of(double degrees) { return degrees * (ANGLE_PI / 180); }
+
+std::array<float, 3> rgb_of(double rgb)
+{
+    auto v = static_cast<uint32_t>(rgb);
+    return {static_cast<float>(v >> 16 & 255) / 255, static_cast<float>(v >> 8 & 255) / 255,
+            static_cast<float>(v & 255) / 255};
+}
+
+} // namespace
+
+struct station {
+    sculpture *piece = nullptr;
+    station_ears ears;
+    int64_t now_us = 0, next_us = 0; /* commands so far; the next grid point */
+
+    hand tool;
+    bool applying = false;
+    int applies_held = 0; /* pedals, buttons and commands that hold a stroke open */
+    stroke path;
+    uint64_t strokes = 0;
+    bool refusal_told = false;
+
+    std::array<std::array<int16_t, 6>, PUCKS> puck{};
+    std::array<moved_thing, 1 + PUCKS> moves{}; /* mouse, then pucks */
+    std::array<meaning, PEDALS> pedal_means{};
+    std::array<meaning, BUTTONS> button_means{};
+    motion_filter filter;
+    double speed_mm = 90, speed_radians = 1.6;
+    bool clutch = false;
+
+    snapshot shown;           /* all but the tool and the scene's shift */
+    motion_vector centre{};   /* world point the eye looks at */
+
+    std::deque<std::string> pictures, messages;
+    std::vector<command> recording;
+};
+
+namespace {
+
+void tell(station *s, std::string text)
+{
+    if (s->messages.size() < MESSAGES_MAX)
+        s->messages.push_back(std::move(text));
+}
+
+/* --- the stroke --- */
+
+int64_t clock_ns(const station *s) { return s->ears.clock_ns ? s->ears.clock_ns() : 0; }
+
+void dab_apply(station *s, const stroke_dab &d)
+{
+    tool t = hand_tool(&s->tool, s->piece->step_mm);
+    sculpture_dab dab = {hand_frame(&s->tool, d.pose), s->tool.rate, d.seconds};
+    station_dab report;
+    report.time_us = s->next_us;
+    report.stroke = s->strokes;
+    int64_t start = clock_ns(s);
+    report.outcome = sculpture_apply_field(s->piece, &t, &dab, &report.counts.tool);
+    int64_t between = clock_ns(s);
+    if (report.outcome == STATUS_OK)
+        report.outcome = sculpture_apply_surface(s->piece, &report.counts.surface);
+    report.field_ns = between - start;
+    report.surface_ns = clock_ns(s) - between;
+    if (report.outcome != STATUS_OK && !s->refusal_told) {
+        tell(s, std::string("a dab was refused: ") + status_text(report.outcome));
+        s->refusal_told = true; /* once a stroke is enough */
+    }
+    if (s->ears.dab)
+        s->ears.dab(report);
+}
+
+void dabs_apply(station *s, const std::vector<stroke_dab> &dabs)
+{
+    for (const stroke_dab &d : dabs)
+        if (s->piece->in_stroke) /* the sculpture ends a stroke it had to take back */
+            dab_apply(s, d);
+}
+
+/* Does to the history what `act` does, and tells and reports how it went. */
+void history_act(station *s, status (*act)(sculpture *), const char *what)
+{
+    int64_t start = clock_ns(s);
+    status outcome = act(s->piece);
+    if (outcome != STATUS_OK)
+        tell(s, std::string(what) + ": " + status_text(outcome));
+    if (s->ears.stroke)
+        s->ears.stroke(outcome, clock_ns(s) - start);
+}
+
+void apply_begin(station *s)
+{
+    sculpture_stroke_begin(s->piece);
+    s->path = stroke_begin(s->tool.pose);
+    s->applying = true;
+    s->refusal_told = false;
+    s->strokes++;
+}
+
+void apply_end(station *s)
+{
+    std::vector<stroke_dab> dabs;
+    stroke_end(&s->path, s->tool.pose, hand_rule(&s->tool), &dabs);
+    dabs_apply(s, dabs);
+    s->applying = false;
+    if (s->piece->in_stroke)
+        history_act(s, sculpture_stroke_end, "the stroke was not kept");
+    else
+        tell(s, "the stroke was taken back: the surface has reached its limit");
+}
+
+void apply_hold(station *s, bool down)
+{
+    s->applies_held = std::max(0, s->applies_held + (down ? 1 : -1));
+    if (down && !s->applying)
+        apply_begin(s);
+    else if (!down && s->applying && s->applies_held == 0)
+        apply_end(s);
+}
+
+/* Undo, redo and the like stand between strokes: one under way ends first. */
+void between_strokes(station *s)
+{
+    if (s->applying)
+        apply_end(s);
+}
+
+void undo(station *s)
+{
+    between_strokes(s);
+    history_act(s, sculpture_undo, "undo");
+}
+
+void redo(station *s)
+{
+    between_strokes(s);
+    history_act(s, sculpture_redo, "redo");
+}
+
+/* --- presses --- */
+
+void press(station *s, meaning m, bool down)
+{
+    switch (m) {
+    case MEANS_NOTHING: break;
+    case MEANS_APPLY: apply_hold(s, down); break;
+    case MEANS_UNDO:
+        if (down)
+            undo(s);
+        break;
+    case MEANS_REDO:
+        if (down)
+            redo(s);
+        break;
+    case MEANS_CLUTCH: s->clutch = down; break;
+    case MEANS_NEXT_ACTION:
+        if (down)
+            s->tool.kind = static_cast<action>((s->tool.kind + 1) % ACTION_COUNT);
+        break;
+    }
+}
+
+/* --- motion --- */
+
+/* Shifts and turns (view frame) what a device moves. */
+void thing_move(station *s, moved_thing what, const motion_vector &shift_mm, const motion_vector &turn_radians)
+{
+    const motion_quaternion scene = s->shown.scene_turn;
+    motion_vector shift_world = motion_rotate_back(scene, shift_mm);
+    if (what == MOVED_SCENE) {
+        s->centre = motion_sum(s->centre, shift_world, -1);
+        s->shown.scene_turn = motion_turned(scene, turn_radians);
+    } else if (what == MOVED_TOOL) {
+        s->tool.pose.place = motion_sum(s->tool.pose.place, shift_world);
+        s->tool.pose.turn = motion_turned(s->tool.pose.turn, motion_rotate_back(scene, turn_radians));
+    } else if (what >= MOVED_LIGHT0) {
+        snapshot_light &light = s->shown.lights[static_cast<size_t>(what - MOVED_LIGHT0)];
+        light.position = motion_sum(light.position, light.with_viewer ? shift_mm : shift_world);
+    }
+}
+
+moved_thing puck_moves(const station *s, size_t device)
+{
+    moved_thing what = s->moves[1 + device];
+    if (s->clutch && what == MOVED_TOOL)
+        return MOVED_SCENE;
+    if (s->clutch && what == MOVED_SCENE)
+        return MOVED_TOOL;
+    return what;
+}
+
+void pucks_move(station *s, double seconds)
+{
+    double zoom = s->shown.camera_distance / CAMERA_AT_REST_MM;
+    for (size_t device = 0; device < PUCKS; device++) {
+        moved_thing what = puck_moves(s, device);
+        if (what == MOVED_NOTHING || s->puck[device] == std::array<int16_t, 6>{})
+            continue;
+        motion_speed v = motion_filtered(s->filter, s->puck[device]);
+        motion_vector shift{}, turn{};
+        for (int a = 0; a < 3; a++) {
+            shift[a] = v.shift[a] * s->speed_mm * zoom * seconds;
+            turn[a] = v.turn[a] * s->speed_radians * seconds;
+        }
+        thing_move(s, what, shift, turn);
+    }
+}
+
+void mouse_move(station *s, double dx, double dy, double wheel)
+{
+    double mm = s->shown.camera_distance;
+    moved_thing what = s->moves[0];
+    if (what == MOVED_SCENE) /* virtual trackball */
+        thing_move(s, what, {0, 0, 0}, {dy * MOUSE_RADIANS_A_PIXEL, dx * MOUSE_RADIANS_A_PIXEL, 0});
+    else
+        thing_move(s, what, {dx * MOUSE_PART_A_PIXEL * mm, -dy * MOUSE_PART_A_PIXEL * mm, wheel * WHEEL_PART_A_NOTCH * mm},
+                   {0, 0, 0});
+    if (what == MOVED_SCENE)
+        s->shown.camera_distance = std::clamp(mm * (1 - wheel * WHEEL_PART_A_NOTCH), 0.1, 1e6);
+}
+
+void grid_step(station *s)
+{
+    constexpr double seconds = STATION_STEP_US / 1e6;
+    pucks_move(s, seconds);
+    hand_advance(&s->tool, s->next_us);
+    if (s->applying) {
+        std::vector<stroke_dab> dabs;
+        stroke_step(&s->path, s->tool.pose, seconds, hand_rule(&s->tool), &dabs);
+        dabs_apply(s, dabs);
+    }
+}
+
+/* --- commands, by what they concern --- */
+
+hand_glide glide_of(const station *s, hand_glide_kind kind, int64_t start_us, double ms)
+{
+    hand_glide g;
+    g.kind = kind;
+    g.start_us = start_us;
+    g.end_us = start_us + static_cast<int64_t>(ms * 1000);
+    g.from = s->tool.pose;
+    return g;
+}
+
+void do_pose(station *s, const command &c)
+{
+    const auto &n = c.number;
+    hand &h = s->tool;
+    switch (c.kind) {
+    case COMMAND_PLACE:
+        h.carry.kind = HAND_GLIDE_NONE;
+        h.pose.place = {n[0], n[1], n[2]};
+        stroke_jump(&s->path, h.pose);
+        break;
+    case COMMAND_TURN:
+        h.spin.kind = HAND_GLIDE_NONE;
+        h.pose.turn = motion_about({n[0], n[1], n[2]}, radians_of(n[3]));
+        stroke_jump(&s->path, h.pose);
+        break;
+    case COMMAND_GLIDE:
+        h.carry = glide_of(s, HAND_GLIDE_LINE, c.time_us, n[3]);
+        h.carry.to = {n[0], n[1], n[2]};
+        break;
+    case COMMAND_SPIN:
+        h.spin = glide_of(s, HAND_GLIDE_SPIN, c.time_us, n[4]);
+        h.spin.axis = {n[0], n[1], n[2]};
+        h.spin.radians = radians_of(n[3]);
+        break;
+    default: /* COMMAND_ORBIT */
+        h.carry = glide_of(s, HAND_GLIDE_ORBIT, c.time_us, n[7]);
+        h.carry.to = {n[0], n[1], n[2]};
+        h.carry.axis = {n[3], n[4], n[5]};
+        h.carry.radians = radians_of(n[6]);
+        break;
+    }
+}
+
+void do_tool(station *s, const command &c)
+{
+    const auto &n = c.number;
+    hand &h = s->tool;
+    switch (c.kind) {
+    case COMMAND_TOOL:
+        if (static_cast<int>(n[0]) == HAND_FREEFORM && !h.has_freeform)
+            tell(s, "there is no freeform tool yet: make-tool makes one of the clay");
+        else
+            h.shape = static_cast<hand_shape>(static_cast<int>(n[0]));
+        break;
+    case COMMAND_MAKE_TOOL: {
+        status made = hand_make_tool(&h, s->piece);
+        if (made != STATUS_OK)
+            tell(s, made == STATUS_BAD_PARAMETER ? "make-tool: there is no clay to make a tool of"
+                                                 : std::string("make-tool: ") + status_text(made));
+        break;
+    }
+    case COMMAND_SIZE: h.size_mm = {n[0], n[1], n[2]}; break;
+    case COMMAND_SCALE: h.scale = {n[0], n[1], n[2]}; break;
+    case COMMAND_BORDER: h.border = n[0]; break;
+    case COMMAND_ACTION: h.kind = static_cast<action>(static_cast<int>(n[0])); break;
+    case COMMAND_COLOUR: {
+        auto rgb = static_cast<uint32_t>(n[0]);
+        h.rgba = colour_pack(rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255, 255);
+        break;
+    }
+    case COMMAND_RATE: h.rate = n[0]; break;
+    case COMMAND_SPACING: h.spacing = n[0]; break;
+    default: { /* COMMAND_DEFORM: its ranges were seen to when it was parsed */
+        deform d;
+        if (deform_init(&d, n[0], n[1], n[2], n[3], n[4]) == STATUS_OK)
+            h.def = d;
+        break;
+    }
+    }
+}
+
+void do_picture(station *s, const command &c)
+{
+    const auto &n = c.number;
+    snapshot &v = s->shown;
+    auto index = static_cast<size_t>(n[0]);
+    switch (c.kind) {
+    case COMMAND_VIEW:
+        v.scene_turn = motion_about({n[0], n[1], n[2]}, radians_of(n[3]));
+        v.camera_distance = n[4];
+        break;
+    case COMMAND_CENTRE: s->centre = {n[0], n[1], n[2]}; break;
+    case COMMAND_ENVIRONMENT:
+        v.environment = static_cast<snapshot_environment>(index);
+        v.environment_strength = static_cast<float>(n[1]);
+        break;
+    case COMMAND_LIGHT:
+        v.lights[index] = {true, n[6] == 1, {n[1], n[2], n[3]}, rgb_of(n[4]), static_cast<float>(n[5])};
+        break;
+    case COMMAND_LIGHT_OFF: v.lights[index].lit = false; break;
+    case COMMAND_LIGHTS_SHOWN: v.lights_shown = index == 1; break;
+    case COMMAND_MATERIAL:
+        v.material = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
+        break;
+    case COMMAND_TOOL_STYLE: v.tool_style = static_cast<snapshot_tool_style>(index); break;
+    case COMMAND_WORKSPACE:
+        v.box_lo = {n[0], n[1], n[2]};
+        v.box_hi = {n[3], n[4], n[5]};
+        break;
+    case COMMAND_WORKSPACE_SHOWN: v.box_shown = index == 1; break;
+    default: s->pictures.push_back(c.name); break; /* COMMAND_PICTURE */
+    }
+}
+
+void do_device(station *s, const command &c)
+{
+    const auto &n = c.number;
+    auto index = static_cast<size_t>(n[0]);
+    switch (c.kind) {
+    case COMMAND_PUCK:
+        for (size_t a = 0; a < 6; a++)
+            s->puck[index][a] = static_cast<int16_t>(n[1 + a]);
+        break;
+    case COMMAND_BUTTON:
+        if (n[1] < BUTTONS)
+            press(s, s->button_means[static_cast<size_t>(n[1])], n[2] == 1);
+        break;
+    case COMMAND_PEDAL: press(s, s->pedal_means[index], n[1] == 1); break;
+    case COMMAND_MOUSE: mouse_move(s, n[0], n[1], n[2]); break;
+    case COMMAND_MOVES: s->moves[index] = static_cast<moved_thing>(static_cast<int>(n[1])); break;
+    case COMMAND_MEANS_PEDAL: s->pedal_means[index] = static_cast<meaning>(static_cast<int>(n[1])); break;
+    case COMMAND_MEANS_BUTTON: s->button_means[index] = static_cast<meaning>(static_cast<int>(n[1])); break;
+    case COMMAND_SPEED:
+        s->speed_mm = n[0];
+        s->speed_radians = radians_of(n[1]);
+        break;
+    case COMMAND_FILTER: s->filter = {n[0], n[1]}; break;
+    default: break; /* COMMAND_RECORDING: wiring has put its reports in this command's place */
+    }
+}
+
+void do_now(station *s, const command &c)
+{
+    switch (c.kind) {
+    case COMMAND_APPLY: apply_hold(s, c.number[0] == 1); break;
+    case COMMAND_UNDO: undo(s); break;
+    case COMMAND_REDO: redo(s); break;
+    case COMMAND_CLEAR:
+        between_strokes(s);
+        history_act(s, sculpture_clear, "clear");
+        break;
+    case COMMAND_PLACE:
+    case COMMAND_TURN:
+    case COMMAND_GLIDE:
+    case COMMAND_SPIN:
+    case COMMAND_ORBIT: do_pose(s, c); break;
+    default:
+        if (c.kind < COMMAND_APPLY)
+            do_device(s, c);
+        else if (c.kind < COMMAND_PLACE)
+            do_tool(s, c);
+        else
+            do_picture(s, c);
+    }
+}
+
+} // namespace
+
+station *station_open(sculpture *piece, station_ears ears)
+{
+    auto *s = new station;
+    s->piece = piece;
+    s->ears = std::move(ears);
+    s->shown.step_mm = piece->step_mm;
+    s->pedal_means[0] = s->button_means[0] = MEANS_APPLY;
+    s->pedal_means[1] = s->button_means[1] = MEANS_UNDO;
+    s->moves[0] = MOVED_SCENE;
+    s->moves[1] = MOVED_TOOL;
+    s->moves[2] = MOVED_SCENE;
+    return s;
+}
+
+void station_close(station *s)
+{
+    if (!s)
+        return;
+    between_strokes(s);
+    hand_finish(&s->tool);
+    delete s;
+}
+
+void station_advance(station *s, int64_t time_us)
+{
+    for (; s->next_us <= time_us; s->next_us += STATION_STEP_US)
+        grid_step(s);
+    s->now_us = std::max(s->now_us, time_us);
+}
+
+void station_do(station *s, const command &c)
+{
+    assert(c.time_us >= s->now_us);
+    station_advance(s, c.time_us);
+    s->recording.push_back(c);
+    do_now(s, c);
+}
+
+snapshot station_snapshot(const station *s)
+{
+    snapshot out = s->shown;
+    const hand &h = s->tool;
+    motion_vector shift = motion_rotate(out.scene_turn, s->centre);
+    for (size_t a = 0; a < 3; a++) {
+        out.scene_shift[a] = -shift[a];
+        out.tool_colour[a] = static_cast<float>(colour_channel(h.rgba, static_cast<int>(a))) / 255;
+    }
+    out.tool_world = hand_frame(&h, h.pose);
+    out.tool_working = s->applying;
+    if (h.shape == HAND_FREEFORM && h.has_freeform) {
+        out.tool_surface = &h.made_surface;
+        out.tool_middle = {h.made.middle[0], h.made.middle[1], h.made.middle[2]};
+    }
+    return out;
+}
+
+bool station_is_applying(const station *s) { return s->applying; }
+
+static bool front_take(std::deque<std::string> *from, std::string *out)
+{
+    if (from->empty())
+        return false;
+    *out = std::move(from->front());
+    from->pop_front();
+    return true;
+}
+
+bool station_picture_take(station *s, std::string *name_out) { return front_take(&s->pictures, name_out); }
+bool station_message_take(station *s, std::string *text_out) { return front_take(&s->messages, text_out); }
+const std::vector<command> &station_recording(const station *s) { return s->recording; }

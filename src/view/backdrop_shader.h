@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:    The ground a picture stands on: dark warm grey, a little lighter behind the piece, as a studio's paper roll.
+ * Is not:  The environment that clay mirrors (studio.h). It needs colour_shader.h before it.
+ * Shape:   one triangle that covers the screen, at the far plane. A dither of half a display step hides the bands that
+ *          eight bits would show in so slow a gradient.
+ * Units:   linear light.
+ */
+#ifndef GLAISE_VIEW_BACKDROP_SHADER_H
+#define GLAISE_VIEW_BACKDROP_SHADER_H
+
+inline constexpr char backdrop_shader_vertex[] = R"(
+out vec2 v_place;
+void main()
+{
+    v_place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(v_place, 1.0, 1.0);
+}
+)";
+
+inline constexpr char backdrop_shader_fragment[] = R"(
+in vec2 v_place;
+layout(location = 0) out vec4 f_colour;
+uniform float u_aspect;
+
+const vec3 MIDDLE = vec3(0.150, 0.141, 0.131);
+const vec3 TOP = vec3(0.052, 0.048, 0.044);
+const vec3 BOTTOM = vec3(0.026, 0.0235, 0.0215);
+
+float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+
+void main()
+{
+    float wide = mix(1.0, u_aspect, 0.5);
+    float away = length(vec2(v_place.x * wide * 0.62, v_place.y * 0.72 - 0.08));
+    vec3 edge = mix(BOTTOM, TOP, smoothstep(-1.0, 1.0, v_place.y));
+    vec3 light = mix(MIDDLE, edge, smoothstep(0.0, 1.25, away));
+    vec3 shown = encoded_of(light) + (noise(floor(gl_FragCoord.xy)) - 0.5) / 255.0;
+    f_colour = vec4(linear_of(shown), 1.0);
+}
+)";
+
+#endif

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:    The picture: a sculpture's patches under lights and an environment, with tool, lights and workspace box, drawn
+ *          into a framebuffer of its own. This is the room's door.
+ * Is not:  What is to be seen (station/snapshot.h); a screen or window (platform/display); a picture file
+ *          (exchange/picture.h).
+ * Shape:
+ *              view_update   changed patches -> device            upload.h
+ *              view_draw     backdrop, clay, box, lights, tool    canvas.h, clay_shader.h, marker.h
+ *              view_pixels   the finished picture as bytes
+ *
+ * Units:   pixels; millimetres in the snapshot.
+ * Owner:   view_open's caller owns the view. An OpenGL ES 3.1 context must be current in every call, and always the same.
+ *          The view leaves no framebuffer, program or vertex array bound, and takes the state it needs for itself.
+ * Errors:  true, or false and one sentence in the trouble. After a failed view_update what was sent is shown, the rest is
+ *          tried again by the next; after a failed view_draw there is no picture.
+ * Cost:    view_open: compiles four programs, computes the environment, tens of milliseconds. view_update: by changed
+ *          patch. view_draw: one call per 65,536 vertices, and a few.
+ * Source:  000 sections 2 and 5.
+ */
+#ifndef GLAISE_VIEW_VIEW_H
+#define GLAISE_VIEW_VIEW_H
+
+#include "sculpture/sculpture.h"
+#include "station/snapshot.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+struct view;
+
+struct view_counts {
+    uint64_t uploaded_bytes;   /* of patches, since view_open; the tool's own not counted */
+    uint64_t uploaded_patches; /* likewise */
+    uint32_t patches;          /* on the device now */
+    int samples;               /* per pixel in the last picture; 0 before the first */
+};
+
+/* NULL and a trouble when no context is current, it is older than 3.1, or the device refuses. */
+[[nodiscard]] view *view_open(std::string *trouble_out);
+void view_close(view *v); /* NULL is fine */
+
+/* Brings what is shown up to date with the sculpture's surface. */
+[[nodiscard]] bool view_update(view *v, const sculpture *s, std::string *trouble_out);
+/* Forgets every patch: before another sculpture is shown by the same view. */
+void view_forget(view *v);
+
+/* Draws the patches of the last update. Width and height 1..CANVAS_SIDE_MAX. */
+[[nodiscard]] bool view_draw(view *v, const snapshot &s, int width, int height, std::string *trouble_out);
+
+/* The last picture: width x height RGBA8, sRGB, top row first, alpha 255. Waits for the device. */
+[[nodiscard]] bool view_pixels(view *v, std::vector<uint8_t> *rgba_out, std::string *trouble_out);
+/* The same as an OpenGL texture, bottom row first, for whoever shows it. Holds until the next view_draw. */
+uint32_t view_texture(const view *v);
+
+view_counts view_count(const view *v);
+
+#endif

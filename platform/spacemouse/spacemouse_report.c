@@ -29,8 +29,11 @@ static void buttons_set(spacemouse_report_buttons *buttons, int64_t number, bool
         return;
     }
     uint32_t mask = 1u << (number % 32);
-    uint32_t *word = &buttons->words[number / 32];
-    *word = down ? *word | mask : *word & ~mask;
+    if (down) {
+        buttons->words[number / 32] |= mask;
+    } else {
+        buttons->words[number / 32] &= ~mask;
+    }
 }
 
 static void read_axis(spacemouse_report *state, const hid_descriptor_field *field, const uint8_t *payload,
@@ -185,7 +188,7 @@ size_t spacemouse_report_decode(spacemouse_report *state, int64_t time_us, const
     if (reading.codes) {
         state->codes_seen = true;
         put_buttons(&state->down, &reading.down_codes, false, &sink);
-    } else if (reading.bits && !state->codes_seen) {
+    } else if (!state->codes_seen) {
         put_buttons(&state->down, &reading.down_bits, false, &sink);
     }
     if (reading.long_codes) {

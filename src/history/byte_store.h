@@ -3,11 +3,13 @@
  * What:    The bytes history needs: a flat folder of named files behind seven calls. Real files implement it
  *          (platform/storage, joined in wiring), so does the tests' failing disk.
  * Is not:  A file system: no folders, no permissions, no clock.
- * Shape:   names are 1 to 63 of [a-z0-9._-]. Offsets and sizes are uint64 bytes.
+ * Shape:   names are 1 to 63 of [a-z0-9._-], not "." or "..". Offsets and sizes are uint64 bytes.
  * Owner:   whoever made `self`.
- * Errors:  STATUS_IO whenever the medium fails; what a failed write left behind is undefined until it is read again.
+ * Errors:  STATUS_IO whenever the medium fails; what a failed write left behind is undefined until it is read again,
+ *          and a rename that failed may have happened. After a failed sync the file is good for nothing: history
+ *          removes it and writes its bytes to a new one.
  *          A file that is not there is a state: read answers 0 bytes, size answers 0 with *exists_out false.
- * Cost:    `sync` is the only call that may take long (5 to 30 ms on a card).
+ * Cost:    `sync` and `rename` may take long (5 to 30 ms on a card).
  */
 #ifndef GLAISE_HISTORY_BYTE_STORE_H
 #define GLAISE_HISTORY_BYTE_STORE_H
@@ -31,12 +33,14 @@ typedef struct byte_store {
     /* Makes the file when absent; a gap before offset reads as zero. */
     status (*write)(void *self, const char *name, uint64_t offset, const void *bytes, size_t n);
     status (*size)(void *self, const char *name, uint64_t *bytes_out, bool *exists_out);
+    /* Cuts, or lengthens with zeros; makes the file when absent. */
     status (*truncate)(void *self, const char *name, uint64_t bytes);
     /* After it returned STATUS_OK the file's bytes and its name are on the medium. */
     status (*sync)(void *self, const char *name);
-    /* Atomic replacement, durable when it returned STATUS_OK. `from` must have been synced. */
+    /* Atomic replacement, durable when it returned STATUS_OK. `from` must exist and have been synced. */
     status (*rename)(void *self, const char *from, const char *to);
-    status (*remove)(void *self, const char *name); /* absent: STATUS_OK */
+    /* Absent: STATUS_OK. Until the next sync or rename a power cut may bring it back. */
+    status (*remove)(void *self, const char *name);
 } byte_store;
 
 #ifdef __cplusplus

@@ -4,9 +4,9 @@
 #include "clay/digest.h"
 #include "history/byte_order.h"
 #include "history/preamble.h"
+#include "history/sentence.h"
 
 #include <math.h>
-#include <stdio.h>
 
 enum {
     STEP_AT = 16,
@@ -194,7 +194,8 @@ static void reader_begin(reader *r, checkpoint_source source, void *self, checkp
 static status refuse(reader *r, status s, uint64_t offset, const char *expected)
 {
     r->trouble->offset = offset;
-    snprintf(r->trouble->expected, sizeof r->trouble->expected, "%s", expected);
+    sentence text = sentence_begin(r->trouble->expected, sizeof r->trouble->expected);
+    sentence_add(&text, expected);
     return s;
 }
 

@@ -63,8 +63,8 @@ STATUS_CHECKED status checkpoint_write(const clay *c, const checkpoint_facts *fa
 /* The clay as it was when the change now being recorded began; facts->digest is clay_digest as it was then. */
 STATUS_CHECKED status checkpoint_write_before(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink,
                                               void *self);
-/* Into an initialised clay, whose content is replaced whole or not at all (its limit stays). Every corner that is stored,
-   and every brick that was, is marked dirty. Nothing may be recorded at this time. */
+/* Into an initialised clay, whose content is replaced whole or not at all (its limit stays). Every corner that is
+   stored, and every brick that was, is marked dirty. Nothing may be recorded at this time. */
 STATUS_CHECKED status checkpoint_read(clay *c, checkpoint_facts *facts_out, checkpoint_source source, void *self,
                                       checkpoint_trouble *trouble_out);
 /* The header alone. */

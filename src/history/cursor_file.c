@@ -12,11 +12,10 @@ enum {
     OLDEST_AT = 16,
     CURSOR_AT = 24,
     NEWEST_AT = 32,
-    DIGEST_AT = 40,
-    DAB_AT = 48,
-    STEP_AT = 56,
-    RING_AT = 64,
-    ZERO_AT = 68,
+    DAB_AT = 40,
+    STEP_AT = 48,
+    RING_AT = 56,
+    ZERO_AT = 60,
 };
 
 static const preamble header_preamble = {"glcurs\r\n", CURSOR_FILE_VERSION, CURSOR_FILE_BYTES};
@@ -27,7 +26,6 @@ status cursor_file_write(const cursor_file *f, const byte_store *store)
     byte_order_put_u64(h + OLDEST_AT, f->oldest);
     byte_order_put_u64(h + CURSOR_AT, f->cursor);
     byte_order_put_u64(h + NEWEST_AT, f->newest);
-    byte_order_put_u64(h + DIGEST_AT, f->digest);
     byte_order_put_u64(h + DAB_AT, f->dab);
     byte_order_put_double(h + STEP_AT, f->step_mm);
     byte_order_put_u32(h + RING_AT, f->ring);
@@ -75,7 +73,6 @@ status cursor_file_read(cursor_file *f_out, const byte_store *store, bool *exist
         .oldest = byte_order_get_u64(h + OLDEST_AT),
         .cursor = byte_order_get_u64(h + CURSOR_AT),
         .newest = byte_order_get_u64(h + NEWEST_AT),
-        .digest = byte_order_get_u64(h + DIGEST_AT),
         .dab = byte_order_get_u64(h + DAB_AT),
         .step_mm = byte_order_get_double(h + STEP_AT),
         .ring = byte_order_get_u32(h + RING_AT),

@@ -6,16 +6,15 @@
  *            offset size
  *                 0    8  "glcurs\r\n"
  *                 8    4  version (1)
- *                12    4  header bytes (80: all there is; preamble.h says what later versions keep)
+ *                12    4  header bytes (72: all there is; preamble.h says what later versions keep)
  *                16    8  oldest stroke that can be undone
  *                24    8  cursor: the stroke after which the clay stands
  *                32    8  newest stroke that can be redone (the cursor when there is none)
- *                40    8  clay_digest at the cursor
- *                48    8  number of the next dab
- *                56    8  step of the lattice, mm, IEEE double
- *                64    4  files in the ring
- *                68    4  0
- *                72    8  XXH3-64 of bytes 0..71
+ *                40    8  number of the next dab
+ *                48    8  step of the lattice, mm, IEEE double
+ *                56    4  files in the ring
+ *                60    4  0
+ *                64    8  XXH3-64 of bytes 0..63
  *          1 <= oldest <= cursor + 1, cursor <= newest < oldest + ring.
  * Errors:  STATUS_CORRUPT, STATUS_NEWER with the place and what was expected; STATUS_IO.
  * Cost:    rewritten by rename, at every stroke, undo and redo.
@@ -30,13 +29,12 @@
 extern "C" {
 #endif
 
-enum { CURSOR_FILE_VERSION = 1, CURSOR_FILE_BYTES = 80 };
+enum { CURSOR_FILE_VERSION = 1, CURSOR_FILE_BYTES = 72 };
 
 #define CURSOR_FILE_NAME "cursor"
 
 typedef struct cursor_file {
     uint64_t oldest, cursor, newest;
-    uint64_t digest;
     uint64_t dab;
     double step_mm;
     uint32_t ring;

@@ -60,12 +60,11 @@ status history_checkpoint(history *h, const clay *c)
     return s;
 }
 
-static status cursor_write(const history *h, uint64_t cursor, uint64_t newest, uint64_t digest)
+static status cursor_write(const history *h, uint64_t cursor, uint64_t newest)
 {
     const cursor_file f = {.oldest = h->oldest,
                            .cursor = cursor,
                            .newest = newest,
-                           .digest = digest,
                            .dab = h->dab,
                            .step_mm = h->step_mm,
                            .ring = h->ring};
@@ -100,7 +99,7 @@ status history_open(history *h, byte_store store, uint32_t ring, double step_mm,
     if (s == STATUS_OK && to_write.field)
         s = history_checkpoint(h, c);
     if (s == STATUS_OK && to_write.cursor)
-        s = cursor_write(h, h->cursor, h->newest, h->digest);
+        s = cursor_write(h, h->cursor, h->newest);
     if (s == STATUS_OK)
         s = mark_all(c);
     buffer_shrink(h);
@@ -136,7 +135,7 @@ static status stroke_write(history *h, const clay *c, const undo_file_facts *fac
     undo_ring_name name = undo_ring_name_of(h->ring, n);
     s = h->store.rename(h->store.self, UNDO_RING_TEMPORARY, name.text);
     if (s == STATUS_OK)
-        s = cursor_write(h, n, n, facts->digest_after);
+        s = cursor_write(h, n, n);
     if (s == STATUS_OK) {
         h->cursor = h->newest = n;
         h->digest = facts->digest_after;
@@ -177,7 +176,7 @@ static status end_at(history *h, const clay *c, uint64_t n, undo_file_direction 
         h->oldest = n + 1;
     else
         h->newest = n - 1;
-    s = cursor_write(h, h->cursor, h->newest, h->digest);
+    s = cursor_write(h, h->cursor, h->newest);
     return s == STATUS_OK ? STATUS_CORRUPT : s;
 }
 
@@ -219,7 +218,7 @@ static status step(history *h, clay *c, undo_file_direction direction)
         return end_at(h, c, n, direction);
     if (s != STATUS_OK)
         return s;
-    s = cursor_write(h, there, h->newest, digest);
+    s = cursor_write(h, there, h->newest);
     if (s != STATUS_OK) {
         clay_change_revert(c);
         return s;

@@ -40,7 +40,8 @@ typedef struct preamble_trouble {
 /* Fills the first 16 and the last 8 of the header's bytes; the others must be in place. */
 void preamble_seal(const preamble *p, uint8_t *header);
 /* bytes: the first `have` of the file, PREAMBLE_HEADER_BYTES_MAX of them if it has so many. */
-STATUS_CHECKED status preamble_check(const preamble *p, const uint8_t *bytes, size_t have, preamble_trouble *trouble_out);
+STATUS_CHECKED status preamble_check(const preamble *p, const uint8_t *bytes, size_t have,
+                                     preamble_trouble *trouble_out);
 
 #ifdef __cplusplus
 }

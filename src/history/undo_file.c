@@ -28,7 +28,10 @@ enum {
 
 static const preamble header_preamble = {"glundo\r\n", UNDO_FILE_VERSION, UNDO_FILE_HEADER_BYTES};
 
-static size_t brick_bytes(uint32_t corners) { return BRICK_HEAD_BYTES + (size_t)corners * CORNER_BYTES + CHECKSUM_BYTES; }
+static size_t brick_bytes(uint32_t corners)
+{
+    return BRICK_HEAD_BYTES + (size_t)corners * CORNER_BYTES + CHECKSUM_BYTES;
+}
 
 /* --- encoding --- */
 

@@ -28,8 +28,8 @@
  *            80+12n   4n  new RGBA8
  *            80+16n    8  XXH3-64 of bytes 0..80+16n-1 of this brick, seeded with the digest after: a brick of
  *                         another stroke does not pass
- *          A corner that is not stored has potential 0 and COLOUR_NONE. A corner is in the file only if its potential or
- *          its colour differ; the same change always gives the same bytes.
+ *          A corner that is not stored has potential 0 and COLOUR_NONE. A corner is in the file only if its potential
+ *          or its colour differ; the same change always gives the same bytes.
  * Owner:   the caller owns buffer and facts.
  * Errors:  STATUS_CORRUPT, STATUS_NEWER with the place and what was expected. undo_file_check looks at everything that
  *          the bytes alone can show; only bytes it let pass may be applied.
@@ -61,8 +61,8 @@ typedef struct undo_file_facts {
     uint64_t bricks, corners, bytes; /* filled by encoding and by reading */
 } undo_file_facts;
 
-/* The change recorded in c, from the images to the clay as it is. When facts->corners is 0 afterwards nothing changed and
-   the bytes are no file. STATUS_NO_MEMORY. */
+/* The change recorded in c, from the images to the clay as it is. When facts->corners is 0 afterwards nothing changed
+   and the bytes are no file. STATUS_NO_MEMORY. */
 STATUS_CHECKED status undo_file_encode(const clay *c, undo_file_facts *facts, byte_buffer *out);
 
 /* The header alone; bytes are the first `have` of the file, PREAMBLE_HEADER_BYTES_MAX of them if it has so many. */
@@ -75,10 +75,10 @@ STATUS_CHECKED status undo_file_check(undo_file_facts *facts_out, const uint8_t 
 typedef enum undo_file_direction { UNDO_FILE_BACK, UNDO_FILE_FORTH } undo_file_direction;
 
 /*
- * Takes checked bytes from the one side to the other, whole or not at all, and marks the dirt. STATUS_CORRUPT when some
+ * Takes the clay from the one side to the other, whole or not at all, and marks the dirt. STATUS_CORRUPT when some
  * corner of the clay is not what the file says it should be; STATUS_POOL_FULL, STATUS_NO_MEMORY.
- * Nothing may be recorded before. After STATUS_OK the step itself is recorded as a change: the caller ends it, or reverts
- * it if what it meant to do besides failed.
+ * Nothing may be recorded before. After STATUS_OK the step itself is recorded as a change: the caller ends it, or
+ * reverts it if what it meant to do besides failed.
  */
 STATUS_CHECKED status undo_file_apply(clay *c, const uint8_t *bytes, size_t size, undo_file_direction direction,
                                       preamble_trouble *trouble_out);

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "history/undo_ring.h"
 
-#include <stdio.h>
+#include "history/sentence.h"
 
 undo_ring_name undo_ring_name_of(uint32_t ring, uint64_t stroke)
 {
     undo_ring_name name;
-    snprintf(name.text, sizeof name.text, "undo-%04u", (unsigned)(stroke % ring % 10000u));
+    sentence text = sentence_begin(name.text, sizeof name.text);
+    sentence_add(&text, "undo-");
+    sentence_add_number(&text, stroke % ring, 4);
     return name;
 }
 

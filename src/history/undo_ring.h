@@ -3,8 +3,8 @@
  * What:    The undo-files on the store: which name a stroke has, what stands in each place of the ring.
  * Is not:  The bytes of an undo-file (undo_file.h); where history stands in it (history.h).
  * Shape:   stroke n of a ring of r files is "undo-" and n mod r in four digits: its slot.
- * Errors:  STATUS_NEWER as soon as one file is of a later version; STATUS_NO_MEMORY. Damage, absence and a file the store
- *          cannot read are states of a slot.
+ * Errors:  STATUS_NEWER when a file is of a later version. Damage, absence and a file the store cannot read are states
+ *          of a slot.
  * Cost:    looking at a slot reads its header.
  */
 #ifndef GLAISE_HISTORY_UNDO_RING_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "history/whole_file.h"
 
-#include <stdio.h>
+#include "history/sentence.h"
 
 enum { SET_ASIDE_TRIES = 10000 };
 
@@ -49,7 +49,11 @@ status whole_file_set_aside(const byte_store *store, const char *name)
         return s;
     for (int n = 1; n < SET_ASIDE_TRIES; n++) {
         char aside[BYTE_STORE_NAME_MAX + 1];
-        snprintf(aside, sizeof aside, n == 1 ? "%s.set-aside" : "%s.set-aside-%d", name, n);
+        sentence text = sentence_begin(aside, sizeof aside);
+        sentence_add(&text, name);
+        sentence_add(&text, n == 1 ? ".set-aside" : ".set-aside-");
+        if (n > 1)
+            sentence_add_number(&text, (uint64_t)n, 1);
         s = store->size(store->self, aside, &size, &exists);
         if (s != STATUS_OK)
             return s;

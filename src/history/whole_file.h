@@ -21,7 +21,8 @@ extern "C" {
 /* The whole file; absent: *exists_out false, size 0. */
 STATUS_CHECKED status whole_file_read(const byte_store *store, const char *name, byte_buffer *out, bool *exists_out);
 
-/* The first half of replacing: after STATUS_OK the bytes are durable under the temporary name; store->rename follows. */
+/* The first half of replacing: after STATUS_OK the bytes are durable under the temporary name; the store's rename is
+   the other. */
 STATUS_CHECKED status whole_file_write(const byte_store *store, const char *temporary, const void *bytes, size_t n);
 /* Both halves. */
 STATUS_CHECKED status whole_file_replace(const byte_store *store, const char *temporary, const char *name,

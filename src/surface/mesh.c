@@ -190,21 +190,23 @@ int64_t mesh_euler(const mesh *m)
     return (int64_t)m->vertex_count - (int64_t)m->triangle_count * 3 / 2 + (int64_t)m->triangle_count;
 }
 
+/* By the divergence theorem along x alone: each triangle's area seen from x times its mean x. Only the latter knows how
+   far out a piece lies, so that pieces far apart cost few digits. */
 double mesh_volume(const mesh *m)
 {
     double six = 0;
     for (uint32_t t = 0; t < m->triangle_count; t++) {
-        double p[3][3];
-        for (int n = 0; n < 3; n++) {
-            /* From the first vertex's brick: far from the origin the products would lose the volume's digits. */
-            mesh_vertex v = m->vertices[m->triangles[t][n]];
-            key origin = m->vertices[0].brick;
-            p[n][0] = 8.0 * ((double)v.brick.i - origin.i) + v.offset[0];
-            p[n][1] = 8.0 * ((double)v.brick.j - origin.j) + v.offset[1];
-            p[n][2] = 8.0 * ((double)v.brick.k - origin.k) + v.offset[2];
+        const mesh_vertex *v[3];
+        for (int n = 0; n < 3; n++)
+            v[n] = &m->vertices[m->triangles[t][n]];
+        double along[2][2], x = 0;
+        for (int n = 0; n < 2; n++) {
+            along[n][0] = 8.0 * ((double)v[n + 1]->brick.j - v[0]->brick.j) + v[n + 1]->offset[1] - v[0]->offset[1];
+            along[n][1] = 8.0 * ((double)v[n + 1]->brick.k - v[0]->brick.k) + v[n + 1]->offset[2] - v[0]->offset[2];
         }
-        six += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) + p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-               p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+        for (int n = 0; n < 3; n++)
+            x += 8.0 * ((double)v[n]->brick.i - m->vertices[0].brick.i) + v[n]->offset[0];
+        six += (along[0][0] * along[1][1] - along[0][1] * along[1][0]) * x;
     }
     return six / 6;
 }

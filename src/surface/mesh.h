@@ -8,6 +8,7 @@
  * Units:   lattice steps.
  * Owner:   the caller; mesh_finish frees.
  * Errors:  STATUS_NO_MEMORY; 2^32 - 1 vertices or triangles or more: STATUS_TOO_LARGE. The mesh is empty then.
+ *          A surface that was left partly updated does not join up: asserted.
  * Cost:    O(vertices + triangles), one tree entry per patch and border.
  */
 #ifndef GLAISE_SURFACE_MESH_H

@@ -26,7 +26,7 @@ extern "C" {
 enum {
     PATCH_SIDE = 9,
     PATCH_EDGE_NAMES = PATCH_SIDE * PATCH_SIDE * PATCH_SIDE * 3,
-    PATCH_VERTICES_MAX = 3 * BRICK_EDGE * PATCH_SIDE * PATCH_SIDE
+    PATCH_VERTICES_MAX = 3 * (int)BRICK_EDGE * PATCH_SIDE * PATCH_SIDE
 };
 
 typedef struct patch_vertex {

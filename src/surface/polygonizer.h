@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-enum { POLYGONIZER_TRIANGLES_MAX = BRICK_CORNERS * CASE_TABLE_TRIANGLES_MAX };
+enum { POLYGONIZER_TRIANGLES_MAX = (int)BRICK_CORNERS * (int)CASE_TABLE_TRIANGLES_MAX };
 
 typedef struct polygonizer {
     float potential[APRON_CORNERS_MAX];      /* corners -1..9 an axis */

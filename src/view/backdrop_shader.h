@@ -23,9 +23,9 @@ in vec2 v_place;
 layout(location = 0) out vec4 f_colour;
 uniform float u_aspect;
 
-const vec3 MIDDLE = vec3(0.150, 0.141, 0.131);
-const vec3 TOP = vec3(0.052, 0.048, 0.044);
-const vec3 BOTTOM = vec3(0.026, 0.0235, 0.0215);
+const vec3 MIDDLE = vec3(0.082, 0.075, 0.067);
+const vec3 TOP = vec3(0.026, 0.0235, 0.021);
+const vec3 BOTTOM = vec3(0.0145, 0.0128, 0.0113);
 
 float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 

@@ -36,7 +36,8 @@ const vec3 WRAP = vec3(0.30, 0.24, 0.20);
 const vec3 SKY = vec3(0.98, 1.06, 1.16);
 const vec3 GROUND = vec3(0.44, 0.38, 0.33);
 const float SHEEN_EXPONENT = 0.2; /* of the specular's */
-const float SHEEN_WEIGHT = 0.35;
+const float SHEEN_WEIGHT = 0.20;
+const float GLOSS_TINT = 0.4; /* clay is no varnish: some of its colour is in its shine */
 const float COAT_F0 = 0.04;
 
 vec3 lit(vec3 n, vec3 v)
@@ -53,7 +54,7 @@ vec3 lit(vec3 n, vec3 v)
         float shine = pow(half_toward, u_material.y) + SHEEN_WEIGHT * pow(half_toward, u_material.y * SHEEN_EXPONENT);
         gloss += u_light_colour[i] * shine * smoothstep(0.0, 0.3, toward);
     }
-    return v_colour * light + u_material.x * gloss;
+    return v_colour * light + u_material.x * gloss * mix(vec3(1.0), v_colour, GLOSS_TINT);
 }
 
 vec3 mirrored(vec3 n, vec3 u)

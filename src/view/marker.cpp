@@ -27,6 +27,7 @@ constexpr float box_alpha = 0.55f;
 constexpr float wire_alpha = 0.85f, wire_alpha_working = 1.0f;
 constexpr float wire_behind_clay = 0.22f;        /* part of the alpha that stays where clay hides the tool */
 constexpr float wire_far_side = 0.30f;           /* and on the tool's own far side */
+constexpr double wire_step_pixels = 12, wire_thinnest = 0.10;
 constexpr float glass_alpha = 0.24f, glass_alpha_working = 0.38f;
 constexpr float glass_rim = 2.6f, glass_far_side = 0.45f, glass_behind_clay = 0.25f;
 constexpr float line_width_at_1080 = 1.25f, line_width_working = 1.5f; /* pixels; factor */
@@ -203,10 +204,21 @@ struct tool_geometry {
     }
 };
 
-void draw_wire(const marker_program &p, const tool_geometry &g, const snapshot &s)
+/* Triangles' sides lie about a step apart. Where that is a few pixels they would fill the tool up: thin them out. */
+float thinned(const tool_geometry &g, const snapshot &s, const glm::dmat4 &eye_from_tool, int height)
+{
+    if (!g.patches)
+        return 1;
+    const double step_mm = std::cbrt(std::abs(glm::determinant(glm::dmat3(eye_from_tool))));
+    const double ahead = std::max(-eye_from_tool[3].z, PROJECTION_NEAR_MIN * s.camera_distance);
+    const double step_pixels = step_mm * projection_pixels_per_mm(s, height, ahead);
+    return static_cast<float>(std::clamp(step_pixels / wire_step_pixels, wire_thinnest, 1.0));
+}
+
+void draw_wire(const marker_program &p, const tool_geometry &g, const snapshot &s, float thin)
 {
     const glm::vec3 colour = marker_tool_colour(s);
-    const float alpha = s.tool_working ? wire_alpha_working : wire_alpha;
+    const float alpha = (s.tool_working ? wire_alpha_working : wire_alpha) * thin;
     glDepthFunc(GL_GREATER);
     paint(p, STYLE_LINE, colour, alpha * wire_behind_clay, wire_far_side, 1);
     g.lines();
@@ -344,7 +356,7 @@ void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, c
     if (s.tool_style == SNAPSHOT_TOOL_WIREFRAME) {
         const float width = line_width_at_1080 * static_cast<float>(height) / 1080 * (s.tool_working ? line_width_working : 1);
         glLineWidth(std::clamp(width, 1.0f, m.line_width_max));
-        draw_wire(program, geometry, s);
+        draw_wire(program, geometry, s, thinned(geometry, s, eye_from_tool, height));
         glLineWidth(1);
     } else {
         draw_glass(program, geometry, s);

@@ -23,7 +23,7 @@
 
 #include <string>
 
-constexpr double MARKER_LIGHT_RADIUS = 0.011; /* of camera_distance */
+constexpr double MARKER_LIGHT_RADIUS = 0.009; /* of camera_distance */
 
 struct marker_program {
     GLuint program = 0;

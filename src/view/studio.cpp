@@ -17,13 +17,13 @@ struct soft_box {
 };
 
 const soft_box boxes[] = {
-    {{-0.62, 0.62, 0.62}, {0.46, 0.58}, 0.10, {3.10, 3.00, 2.85}}, /* key: large, left of the camera */
-    {{0.97, 0.20, -0.05}, {0.13, 0.75}, 0.07, {1.75, 1.85, 2.05}}, /* rim: a tall strip on the right */
-    {{0.10, 0.98, -0.35}, {0.75, 0.20}, 0.16, {0.75, 0.74, 0.72}}, /* top: faint, wide */
+    {{-0.62, 0.62, 0.62}, {0.50, 0.62}, 0.22, {2.70, 2.60, 2.45}}, /* key: large, left of the camera */
+    {{0.97, 0.20, -0.05}, {0.16, 0.80}, 0.13, {1.30, 1.40, 1.60}}, /* rim: a tall strip on the right */
+    {{0.10, 0.98, -0.35}, {0.80, 0.26}, 0.22, {0.50, 0.50, 0.50}}, /* top: faint, wide */
 };
 
-const glm::dvec3 zenith{0.050, 0.052, 0.058}, wall{0.36, 0.345, 0.325}, floor_near{0.045, 0.040, 0.036},
-    floor_far{0.24, 0.215, 0.190};
+const glm::dvec3 zenith{0.060, 0.068, 0.082}, wall{0.46, 0.45, 0.43}, floor_near{0.060, 0.050, 0.043},
+    floor_far{0.29, 0.255, 0.225};
 
 double step_smooth(double from, double to, double x)
 {
@@ -42,16 +42,16 @@ glm::dvec3 box_light(const soft_box &b, const glm::dvec3 &r)
     const glm::dvec2 at(glm::dot(r, across) / ahead, glm::dot(r, up) / ahead);
     const glm::dvec2 over = glm::max(glm::abs(at) - b.half_size + b.edge, glm::dvec2(0)); /* rounded corners */
     const double inside = 1 - step_smooth(0, b.edge, glm::length(over));
-    const double hot = 1 - 0.35 * glm::dot(at / b.half_size, at / b.half_size) / 2; /* the lamp behind the cloth */
+    const double hot = 1 - 0.6 * glm::dot(at / b.half_size, at / b.half_size) / 2; /* the lamp behind the cloth */
     return b.light * (inside * hot);
 }
 
 glm::dvec3 room_light(const glm::dvec3 &r)
 {
     /* Both halves meet within a few degrees of the horizon: a paper roll has no corner. */
-    const glm::dvec3 above = glm::mix(wall, zenith, step_smooth(0.0, 0.85, r.y));
-    const glm::dvec3 below = glm::mix(floor_far, floor_near, step_smooth(0.0, 0.8, -r.y));
-    return glm::mix(below, above, step_smooth(-0.035, 0.035, r.y));
+    const glm::dvec3 above = glm::mix(wall, zenith, step_smooth(-0.1, 0.75, r.y));
+    const glm::dvec3 below = glm::mix(floor_far, floor_near, step_smooth(0.0, 0.75, -r.y));
+    return glm::mix(below, above, step_smooth(-0.06, 0.06, r.y));
 }
 
 using level = std::vector<glm::vec4>;

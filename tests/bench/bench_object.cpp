@@ -68,7 +68,8 @@ struct blob {
     uint32_t rgba;
 };
 
-/* Belly, head, ears, nose, arms, legs; sitting round the origin. */
+/* Belly, head, ears, nose, arms, legs; sitting round the origin. Times `scale`, its corners are as many as the paper's. */
+constexpr double scale = 1.0353;
 const blob character[] = {
     {{0, 0, 0}, {12.6, 11.4, 12.6}, 6, colour_pack(200, 120, 80, 255)},
     {{0, 0, 15.5}, {9, 8.6, 9}, 6, colour_pack(220, 180, 150, 255)},
@@ -121,12 +122,13 @@ std::vector<bench_object_dab> bench_object_character()
     std::vector<bench_object_dab> dabs;
     for (const blob &part : character)
         for (int n = 0; n < part.dabs; n++) {
-            double centre[3], turn[3];
+            double centre[3], semi[3], turn[3];
             for (int a = 0; a < 3; a++) {
-                centre[a] = part.centre[a] + random.next(-0.6, 0.6);
+                centre[a] = scale * part.centre[a] + random.next(-0.6, 0.6);
+                semi[a] = scale * part.semi[a];
                 turn[a] = random.next(-0.2, 0.2);
             }
-            dabs.push_back(dab_of(centre, part.semi, turn, ACTION_TOOTHPASTE, 2.0, part.rgba));
+            dabs.push_back(dab_of(centre, semi, turn, ACTION_TOOTHPASTE, 2.0, part.rgba));
         }
     return dabs;
 }

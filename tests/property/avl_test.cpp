@@ -97,7 +97,7 @@ TEST(avl_property, hard_orders_stay_low)
         ASSERT_EQ(avl_init(&t, total), STATUS_OK);
         for (int n = 0; n < total; n++) {
             const int zigzag = n % 2 ? n : 2 * total - n;
-            const int outwards = n % 2 ? total + n / 2 : total - n / 2;
+            const int outwards = n % 2 ? total + 1 + n / 2 : total - n / 2;
             const int i = order == 0 ? n : order == 1 ? -n : order == 2 ? zigzag : outwards;
             ASSERT_EQ(avl_insert(&t, {0, i, 0}, 1), STATUS_OK);
             ASSERT_LE(avl_height(&t), height_max(avl_count(&t)));

@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <locale>
+#include <unistd.h>
 
 namespace {
 
@@ -39,14 +40,19 @@ const writer writers[] = {{"stl", stl_write, readback_stl},
                           {"obj", obj_write, readback_obj},
                           {"inventor", inventor_write, read_inventor}};
 
+std::string written_by(const writer &w, handmade &piece, double step_mm, std::string_view name)
+{
+    const mesh m = piece.as_mesh();
+    bucket b;
+    EXPECT_EQ(w.write({&m, step_mm, name}, bucket_put, &b), STATUS_OK);
+    return b.bytes;
+}
+
 class mesh_file_each : public testing::TestWithParam<writer> {
 protected:
     std::string written(handmade &piece, double step_mm = 1, std::string_view name = "owl")
     {
-        const mesh m = piece.as_mesh();
-        bucket b;
-        EXPECT_EQ(GetParam().write({&m, step_mm, name}, bucket_put, &b), STATUS_OK);
-        return b.bytes;
+        return written_by(GetParam(), piece, step_mm, name);
     }
     void expect_refused(const mesh &m, double step_mm, status expected)
     {
@@ -147,25 +153,37 @@ struct comma_punctuation : std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-bool comma_is_set()
-{
-    return std::string_view(std::localeconv()->decimal_point) == ",";
-}
-
 /* What printf and strtod would consult: an installed locale, or one compiled into a folder of the test's own. */
-bool set_comma_locale()
-{
-    for (const char *name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR.utf8"})
-        if (std::setlocale(LC_ALL, name) && comma_is_set())
-            return true;
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "glaise_comma_locale";
-    std::filesystem::create_directories(folder);
-    const std::string command = "localedef -i de_DE -f UTF-8 '" + (folder / "de_DE.UTF-8").string() + "' 2>/dev/null";
-    if (std::system(command.c_str()) != 0)
-        return false;
-    setenv("LOCPATH", folder.c_str(), 1);
-    return std::setlocale(LC_ALL, "de_DE.UTF-8") && comma_is_set();
-}
+class comma_country {
+public:
+    comma_country()
+    {
+        for (const char *name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR.utf8"})
+            if (std::setlocale(LC_ALL, name) && comma_is_set())
+                return;
+        folder_ = testing::TempDir() + "glaise_locale_" + std::to_string(getpid());
+        std::filesystem::create_directories(folder_);
+        const std::string command = "localedef -i de_DE -f UTF-8 '" + folder_ + "/de_DE.UTF-8' 2>/dev/null";
+        if (std::system(command.c_str()) != 0)
+            return;
+        setenv("LOCPATH", folder_.c_str(), 1);
+        std::setlocale(LC_ALL, "de_DE.UTF-8");
+    }
+    ~comma_country()
+    {
+        std::setlocale(LC_ALL, "C");
+        unsetenv("LOCPATH");
+        if (!folder_.empty())
+            std::filesystem::remove_all(folder_);
+    }
+    comma_country(const comma_country &) = delete;
+    comma_country &operator=(const comma_country &) = delete;
+
+    static bool comma_is_set() { return std::string_view(std::localeconv()->decimal_point) == ","; }
+
+private:
+    std::string folder_;
+};
 
 TEST_P(mesh_file_each, decimal_comma_of_streams_changes_nothing)
 {
@@ -177,15 +195,18 @@ TEST_P(mesh_file_each, decimal_comma_of_streams_changes_nothing)
     EXPECT_EQ(in_comma_country, expected);
 }
 
-TEST_P(mesh_file_each, decimal_comma_of_printf_changes_nothing)
+/* One test for all writers: making a locale takes seconds. */
+TEST(mesh_file, decimal_comma_of_printf_changes_nothing)
 {
     handmade ball = handmade_ball({1.25, -2.5, 3000.1}, 11.3, 3);
-    const std::string expected = written(ball, 0.37);
-    const bool set = set_comma_locale();
-    const std::string in_comma_country = written(ball, 0.37);
-    std::setlocale(LC_ALL, "C");
-    if (!set)
+    std::vector<std::string> expected, in_comma_country;
+    for (const writer &w : writers)
+        expected.push_back(written_by(w, ball, 0.37, "owl"));
+    const comma_country abroad;
+    if (!comma_country::comma_is_set())
         GTEST_SKIP() << "no locale with a decimal comma is installed, and localedef cannot make one";
+    for (const writer &w : writers)
+        in_comma_country.push_back(written_by(w, ball, 0.37, "owl"));
     EXPECT_EQ(in_comma_country, expected);
 }
 

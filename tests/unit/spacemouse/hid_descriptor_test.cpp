@@ -274,6 +274,19 @@ TEST(hid_descriptor, a_usage_range_works_for_axes_and_in_either_order)
         expect_axis(d.fields[axis], axis, 0, 16u * axis, false);
     }
     expect_refused(open_multi_axis + bytes{0x19, 0x05, 0x29, 0x04}, 8, "Usage Maximum");
+    expect_refused({0x1b, 0x01, 0x00, 0x09, 0x00, 0x2b, 0x02, 0x00, 0x01, 0x00}, 5, "on one page");
+    expect_refused({0x07, 0x00, 0x00, 0x01, 0x00}, 0, "Usage Page of at most");
+}
+
+TEST(hid_descriptor, several_usage_ranges_follow_one_another)
+{
+    /* Rz..Rz, then X..Y. */
+    hid_descriptor d = in_multi_axis({0x15, 0x80, 0x25, 0x7f, 0x75, 0x08, 0x95, 0x03, 0x19, 0x35, 0x29, 0x35, 0x19,
+                                      0x30, 0x29, 0x31, 0x81, 0x02});
+    ASSERT_EQ(d.field_count, 3u);
+    EXPECT_EQ(d.fields[0].first, DEVICE_EVENT_RZ);
+    EXPECT_EQ(d.fields[1].first, DEVICE_EVENT_X);
+    EXPECT_EQ(d.fields[2].first, DEVICE_EVENT_Y);
 }
 
 TEST(hid_descriptor, locals_do_not_outlive_their_main_item)
@@ -284,6 +297,17 @@ TEST(hid_descriptor, locals_do_not_outlive_their_main_item)
     ASSERT_EQ(d.field_count, 2u);
     EXPECT_EQ(d.fields[1].first, DEVICE_EVENT_Y);
     EXPECT_EQ(d.fields[1].bit, 16u);
+    /* Nor does half a range: the two halves lie on both sides of an Input. */
+    EXPECT_EQ(in_multi_axis({0x15, 0x80, 0x25, 0x7f, 0x75, 0x08, 0x95, 0x01, 0x19, 0x30, 0x81, 0x02, 0x29, 0x30, 0x81,
+                             0x02}).field_count, 0u);
+}
+
+TEST(hid_descriptor, usages_beyond_the_last_element_are_nothing)
+{
+    hid_descriptor d = in_multi_axis({0x05, 0x09, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x02, 0x19, 0x01, 0x29,
+                                      0x20, 0x81, 0x02});
+    ASSERT_EQ(d.field_count, 1u);
+    EXPECT_EQ(d.fields[0].count, 2);
 }
 
 TEST(hid_descriptor, of_a_delimited_set_the_first_usage_counts)
@@ -313,6 +337,37 @@ TEST(hid_descriptor, single_usages_with_gaps_become_runs_of_buttons)
     EXPECT_EQ(d.fields[1].bit, 4u);
 }
 
+TEST(hid_descriptor, buttons_in_number_order_but_apart_are_separate_runs)
+{
+    /* Button 1 of one bit, button 2 behind a hole, button 3 of eight bits, button 4 at the next bit of report 4. */
+    hid_descriptor d = in_multi_axis({0x05, 0x09, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x01, 0x85, 0x03,
+                                      0x09, 0x01, 0x81, 0x02,             /* bit 0 */
+                                      0x09, 0x09, 0x81, 0x03,             /* a constant, whatever it is called */
+                                      0x09, 0x02, 0x81, 0x02,             /* bit 2 */
+                                      0x75, 0x08, 0x09, 0x03, 0x81, 0x02, /* bits 3 to 10 */
+                                      0x85, 0x04, 0x75, 0x0b, 0x81, 0x03, /* bits 0 to 10 of report 4 */
+                                      0x75, 0x08, 0x09, 0x04, 0x81, 0x02});
+    ASSERT_EQ(d.field_count, 4u);
+    const uint32_t bits[] = {0, 2, 3, 11};
+    for (int i = 0; i < 4; i++) {
+        EXPECT_EQ(d.fields[i].role, HID_DESCRIPTOR_BUTTON_BITS);
+        EXPECT_EQ(d.fields[i].first, i);
+        EXPECT_EQ(d.fields[i].count, 1);
+        EXPECT_EQ(d.fields[i].bit, bits[i]);
+        EXPECT_EQ(d.fields[i].report_id, i < 3 ? 3 : 4);
+    }
+}
+
+TEST(hid_descriptor, button_usage_zero_is_no_button)
+{
+    hid_descriptor d = in_multi_axis({0x05, 0x09, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x03, 0x19, 0x00, 0x29,
+                                      0x02, 0x81, 0x02});
+    ASSERT_EQ(d.field_count, 1u);
+    EXPECT_EQ(d.fields[0].first, 0);
+    EXPECT_EQ(d.fields[0].count, 2);
+    EXPECT_EQ(d.fields[0].bit, 1u);
+}
+
 TEST(hid_descriptor, elements_beyond_the_last_usage_are_padding)
 {
     hid_descriptor d = in_multi_axis({0x05, 0x09, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x08, 0x19, 0x01, 0x29,
@@ -339,7 +394,9 @@ TEST(hid_descriptor, an_array_of_other_things_or_with_gaps_is_left_out)
     bytes keyboard = {0x05, 0x07, 0x15, 0x00, 0x25, 0x65, 0x19, 0x00, 0x29, 0x65, 0x75, 0x08, 0x95, 0x06, 0x81, 0x00};
     bytes gaps = {0x05, 0x09, 0x15, 0x01, 0x25, 0x02, 0x09, 0x01, 0x09, 0x03, 0x75, 0x08, 0x95, 0x06, 0x81, 0x00};
     EXPECT_EQ(in_multi_axis(keyboard).field_count, 0u);
+    bytes no_codes = {0x05, 0x09, 0x15, 0x03, 0x25, 0x02, 0x19, 0x01, 0x29, 0x02, 0x75, 0x08, 0x95, 0x06, 0x81, 0x00};
     EXPECT_EQ(in_multi_axis(gaps).field_count, 0u);
+    EXPECT_EQ(in_multi_axis(no_codes).field_count, 0u);
 }
 
 TEST(hid_descriptor, reports_1c_and_1d_of_16_bit_elements_are_codes_however_declared)
@@ -360,6 +417,13 @@ TEST(hid_descriptor, reports_1c_and_1d_of_16_bit_elements_are_codes_however_decl
     /* Elsewhere a vendor array is nothing of ours. */
     EXPECT_EQ(in_multi_axis({0x85, 0x1b, 0x06, 0x00, 0xff, 0x15, 0x00, 0x27, 0xff, 0xff, 0x00, 0x00, 0x09, 0x01,
                              0x75, 0x10, 0x95, 0x06, 0x81, 0x00}).field_count, 0u);
+    /* Nor is one of 8-bit elements here, and an axis stays an axis. */
+    EXPECT_EQ(in_multi_axis({0x85, 0x1c, 0x06, 0x00, 0xff, 0x15, 0x00, 0x25, 0x7f, 0x09, 0x01, 0x75, 0x08, 0x95, 0x06,
+                             0x81, 0x00}).field_count, 0u);
+    hid_descriptor d = in_multi_axis({0x85, 0x1c, 0x16, 0xa2, 0xfe, 0x26, 0x5e, 0x01, 0x09, 0x30, 0x75, 0x10, 0x95,
+                                      0x01, 0x81, 0x02});
+    ASSERT_EQ(d.field_count, 1u);
+    expect_axis(d.fields[0], DEVICE_EVENT_X, 0x1c, 0, false);
 }
 
 TEST(hid_descriptor, bits_are_counted_per_report_id_through_constants_and_foreign_fields)
@@ -412,7 +476,16 @@ TEST(hid_descriptor, only_a_top_level_application_collection_makes_it_multi_axis
     EXPECT_FALSE(parsed({0x05, 0x01, 0x09, 0x08, 0xa1, 0x00, 0xc0}).multi_axis);
     EXPECT_FALSE(parsed({0x05, 0x01, 0x09, 0x02, 0xa1, 0x01, 0x09, 0x08, 0xa1, 0x01, 0xc0, 0xc0}).multi_axis);
     EXPECT_FALSE(parsed({0x05, 0x01, 0xa1, 0x01, 0xc0}).multi_axis);
+    EXPECT_FALSE(parsed({0x05, 0x01, 0x09, 0x08, 0xa1, 0x00, 0xc0, 0xa1, 0x01, 0xc0}).multi_axis);
     EXPECT_TRUE(parsed({0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0xc0}).multi_axis);
+}
+
+TEST(hid_descriptor, the_collection_ends_where_it_ends)
+{
+    bytes x = {0x15, 0x80, 0x25, 0x7f, 0x75, 0x08, 0x95, 0x01, 0x09, 0x30, 0x81, 0x02};
+    EXPECT_EQ(parsed(open_multi_axis + close_collection + x).field_count, 0u);
+    EXPECT_EQ(parsed(open_multi_axis + close_collection + bytes{0xa1, 0x00} + x + close_collection).field_count, 0u);
+    EXPECT_EQ(in_multi_axis(bytes{0xa1, 0x00, 0xc0} + x).field_count, 1u);
 }
 
 TEST(hid_descriptor, monstrous_sizes_and_counts_are_refused)

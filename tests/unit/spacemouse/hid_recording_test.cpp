@@ -31,7 +31,7 @@ const std::string navigator_header = "R: " + length_and_hex(spacemouse_bytes_nav
                                      "N: 3Dconnexion SpaceNavigator\nP: usb-1/input0\nI: 3 046d c626\n";
 const std::string wireless_header = "R: " + length_and_hex(spacemouse_bytes_wireless) + "\n" +
                                     "N: 3Dconnexion SpaceMouse Wireless\nI: 3 256f c62e\n";
-const std::string mouse_header = "R: 19 05 01 09 02 a1 01 15 81 25 7f 09 30 75 08 95 01 81 06 c0\nN: mouse\n";
+const std::string mouse_header = "R: 21 05 01 09 02 a1 01 85 01 15 81 25 7f 09 30 75 08 95 01 81 06 c0\nN: mouse\n";
 
 class loaded {
 public:
@@ -261,7 +261,7 @@ TEST(hid_recording_decode, plays_two_devices_and_skips_a_mouse)
 {
     loaded l("D: 0\n" + navigator_header + "D: 1\n" + mouse_header + "D: 2\n" + wireless_header +
              "D: 0\nE: 0.000000 7 01 0a 00 ec ff 5e 01\n"
-             "D: 1\nE: 0.000010 1 05\n"
+             "D: 1\nE: 0.000010 2 01 05\nE: 0.000010 2 09 05\n"
              "D: 2\nE: 0.000020 13 01 01 00 02 00 03 00 04 00 05 00 06 00\nE: 0.000030 3 17 32 00\n"
              "D: 0\nE: 0.000040 7 02 01 00 00 00 00 00\nE: 0.000050 3 03 02 00\nE: 0.000060 2 63 00\nE: 0.000070 1 01\n");
     ASSERT_TRUE(l.good) << l.error.line << " " << l.error.expected;
@@ -306,6 +306,7 @@ TEST(hid_recording_decode, a_malformed_descriptor_is_refused_with_its_line_and_o
     EXPECT_NE(std::string(error.expected).find("data bytes"), std::string::npos);
     EXPECT_EQ(decoded.events, nullptr);
     EXPECT_EQ(decoded.event_count, 0u);
+    EXPECT_FALSE(decoded.skipped[1]); /* empty again, though that one was already found not multi-axis */
 }
 
 TEST(hid_recording_decode, a_recording_without_events_decodes_to_none)

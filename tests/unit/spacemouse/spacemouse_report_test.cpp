@@ -140,6 +140,16 @@ TEST(spacemouse_report, axis_max_is_known_before_the_first_report_of_an_axis)
     expect_axes(e[0], {0, 0, 0, 0, 0, 0});
 }
 
+TEST(spacemouse_report, an_axis_told_in_two_reports_comes_with_the_range_of_the_last)
+{
+    /* X in report 1 up to 100, in report 2 up to 50. */
+    one_device s({0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0x15, 0x9c, 0x25, 0x64, 0x75, 0x08, 0x95, 0x01, 0x85, 0x01, 0x09,
+                  0x30, 0x81, 0x02, 0x25, 0x32, 0x85, 0x02, 0x09, 0x30, 0x81, 0x02, 0xc0});
+    EXPECT_EQ(s.report({0x02, 0x10})[0].axis_max[DEVICE_EVENT_X], 50);
+    EXPECT_EQ(s.report({0x01, 0x20})[0].axis_max[DEVICE_EVENT_X], 100);
+    EXPECT_EQ(s.report({0x02, 0x10})[0].axes[DEVICE_EVENT_X], 16);
+}
+
 TEST(spacemouse_report, button_bits_make_press_and_release)
 {
     one_device s(spacemouse_bytes_navigator);
@@ -267,6 +277,16 @@ TEST(spacemouse_report, a_button_array_counts_from_its_logical_minimum)
     ASSERT_EQ(e.size(), 2u);
     expect_button(e[0], 2, false);
     expect_button(e[1], 5, true);
+}
+
+TEST(spacemouse_report, a_code_that_stands_for_usage_zero_is_no_button)
+{
+    one_device s({0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0x05, 0x09, 0x15, 0x00, 0x25, 0x08, 0x19, 0x00, 0x29, 0x08, 0x75,
+                  0x08, 0x95, 0x02, 0x81, 0x00, 0xc0});
+    EXPECT_TRUE(s.report({0x00, 0x00}).empty());
+    events e = s.report({0x00, 0x01});
+    ASSERT_EQ(e.size(), 1u);
+    expect_button(e[0], 0, true);
 }
 
 TEST(spacemouse_report, codes_beyond_the_table_are_ignored)

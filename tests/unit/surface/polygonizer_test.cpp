@@ -95,15 +95,13 @@ TEST(polygonizer, a_corner_exactly_at_iso_keeps_its_vertices_apart)
 
 TEST(polygonizer, without_a_gradient_the_normal_is_the_edge_outwards)
 {
-    /* Edge (4,4,4)-(5,4,4), t = 0.5: differences 0 - 3 at its inside end and (x - 3) at its outside end cancel only if
-       the corner before has 3 more than the one after; along the edge that takes F(3) = 3, F(6) = 3: then each end's
-       difference along x is 0 - 3 and 3 - 3, not cancelling; so both ends are given x-neighbours that make 0. */
+    /* Two equal corners with one absent between them: every difference at all three is 0 - 0 or 3 - 3. */
     sample_clay s;
     sample_clay_put(&s.field, {4, 4, 4}, 3.0f);
-    sample_clay_put(&s.field, {6, 4, 4}, 3.0f); /* at (5,4,4): 3 - 3 */
+    sample_clay_put(&s.field, {6, 4, 4}, 3.0f);
     sample_clay_update(&s);
     const patch_vertex *v = vertex_at(&s.skin, {0, 0, 0}, 4, 4, 4, 0), *w = vertex_at(&s.skin, {0, 0, 0}, 5, 4, 4, 0);
-    ASSERT_TRUE(v && w); /* at (4,4,4) and (6,4,4): 0 - 0; so no gradient at either end */
+    ASSERT_TRUE(v && w);
     EXPECT_EQ(v->normal[0], 1.0f);
     EXPECT_EQ(w->normal[0], -1.0f);
     EXPECT_EQ(v->normal[1], 0.0f);

@@ -3,7 +3,8 @@
  * What:    Clay and its surface in one scope for tests, edits written as functions of the corner, and the question
  *          whether two surfaces are the same bit for bit.
  * Is not:  A tool: edits go straight through clay_brick_open and clay_brick_close.
- * Shape:   an edit is bool(key, float &potential, uint32_t &rgba): true when it dirties that corner.
+ * Shape:   an edit is bool(key, float &potential, uint32_t &rgba): true when it dirties that corner,
+ *          which then takes the two values.
  * Owner:   sample_clay owns both; a refusal fails the test that runs.
  */
 #ifndef GLAISE_SURFACE_SAMPLE_CLAY_H
@@ -53,7 +54,7 @@ inline double sample_clay_distance(key corner, key base, double x, double y, dou
 }
 
 /* Edits every corner of the box; answers the corners dirtied. */
-template <typename edit> std::vector<key> sample_clay_edit(clay *c, box where, edit change)
+template <typename edit> std::vector<key> sample_clay_edit(clay *c, box where, edit dirties)
 {
     std::vector<key> dirtied;
     const box bricks = box_of_bricks(where);
@@ -69,10 +70,14 @@ template <typename edit> std::vector<key> sample_clay_edit(clay *c, box where, e
                 brick_page *page = clay_brick(c, id)->page;
                 for (int n = 0; n < BRICK_CORNERS; n++) {
                     const key corner = key_add(key_of_brick({bi, bj, bk}), n >> 6, n >> 3 & 7, n & 7);
-                    if (box_contains(where, corner) && change(corner, page->potential[n], page->rgba[n])) {
-                        brick_mask_set(&mask, n);
-                        dirtied.push_back(corner);
-                    }
+                    float potential = page->potential[n];
+                    uint32_t rgba = page->rgba[n];
+                    if (!box_contains(where, corner) || !dirties(corner, potential, rgba))
+                        continue;
+                    page->potential[n] = potential;
+                    page->rgba[n] = rgba;
+                    brick_mask_set(&mask, n);
+                    dirtied.push_back(corner);
                 }
                 EXPECT_EQ(clay_brick_close(c, id, &mask), STATUS_OK);
             }

@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "platform/storage/storage.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { FOLDER_MODE = 0755, FILE_MODE = 0644 };
+
+/* --- the folder --- */
+
+/* The new folder's own name must survive as well: its parent is synced. */
+static int parent_sync(int folder_fd)
+{
+    int fd = openat(folder_fd, "..", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0)
+        return -errno;
+    int result = fsync(fd) == 0 ? 0 : -errno;
+    close(fd);
+    return result;
+}
+
+int storage_open(storage *s, const char *folder)
+{
+    memset(s, 0, sizeof *s);
+    s->folder_fd = -1;
+    bool made = mkdir(folder, FOLDER_MODE) == 0;
+    if (!made && errno != EEXIST)
+        return -errno;
+    s->folder_fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (s->folder_fd < 0)
+        return -errno;
+    int result = flock(s->folder_fd, LOCK_EX | LOCK_NB) == 0 ? 0 : -errno;
+    if (result == 0 && made)
+        result = parent_sync(s->folder_fd);
+    if (result != 0)
+        storage_close(s);
+    return result;
+}
+
+static void file_close(storage_file *f)
+{
+    if (f->name[0] != '\0' && f->fd >= 0)
+        close(f->fd);
+    f->name[0] = '\0';
+}
+
+void storage_close(storage *s)
+{
+    for (int n = 0; n < STORAGE_OPEN_MAX; n++)
+        file_close(&s->files[n]);
+    if (s->folder_fd >= 0)
+        close(s->folder_fd); /* and with it the lock goes */
+    s->folder_fd = -1;
+}
+
+static bool name_is_good(const char *name)
+{
+    size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789._-");
+    return n >= 1 && n <= STORAGE_NAME_MAX && name[n] == '\0' && strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
+}
+
+/* --- open files --- */
+
+static storage_file *file_find(storage *s, const char *name)
+{
+    for (int n = 0; n < STORAGE_OPEN_MAX; n++)
+        if (strcmp(s->files[n].name, name) == 0)
+            return &s->files[n];
+    return NULL;
+}
+
+static int folder_sync(storage *s)
+{
+    if (fsync(s->folder_fd) != 0)
+        return -errno;
+    for (int n = 0; n < STORAGE_OPEN_MAX; n++)
+        s->files[n].name_is_new = false;
+    return 0;
+}
+
+static int file_sync(storage *s, storage_file *f)
+{
+    if (f->fd < 0)
+        return -EIO;
+    if (f->written && fdatasync(f->fd) != 0) {
+        int error = errno;
+        close(f->fd);
+        f->fd = -1;
+        return -error;
+    }
+    f->written = false;
+    return f->name_is_new ? folder_sync(s) : 0;
+}
+
+/* A place in the table: a free one, or that of the file that has waited longest. A spoilt one keeps its place: only
+   that tells it from a good one. */
+static int place_find(storage *s, storage_file **place_out)
+{
+    storage_file *oldest = NULL;
+    for (int n = 0; n < STORAGE_OPEN_MAX; n++) {
+        storage_file *f = &s->files[n];
+        if (f->name[0] == '\0') {
+            *place_out = f;
+            return 0;
+        }
+        if (f->fd >= 0 && (!oldest || f->turn < oldest->turn))
+            oldest = f;
+    }
+    if (!oldest)
+        return -EIO;
+    int result = file_sync(s, oldest);
+    if (result != 0)
+        return result;
+    file_close(oldest);
+    *place_out = oldest;
+    return 0;
+}
+
+/* The file, opened; with `make`, made when it is absent. */
+static int file_open(storage *s, const char *name, bool make, storage_file **file_out)
+{
+    if (!name_is_good(name))
+        return -EINVAL;
+    storage_file *f = file_find(s, name);
+    if (!f) {
+        int result = place_find(s, &f);
+        if (result != 0)
+            return result;
+        const int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+        int fd = openat(s->folder_fd, name, flags);
+        bool made = false;
+        if (fd < 0 && errno == ENOENT && make) {
+            fd = openat(s->folder_fd, name, flags | O_CREAT | O_EXCL, FILE_MODE);
+            made = fd >= 0;
+        }
+        if (fd < 0)
+            return -errno;
+        struct stat is;
+        if (fstat(fd, &is) != 0 || !S_ISREG(is.st_mode)) {
+            close(fd);
+            return -EINVAL;
+        }
+        strcpy(f->name, name);
+        f->fd = fd;
+        f->written = made;
+        f->name_is_new = made;
+    }
+    f->turn = ++s->turn;
+    *file_out = f;
+    return f->fd >= 0 ? 0 : -EIO;
+}
+
+/* --- reading and writing --- */
+
+int storage_read(storage *s, const char *name, uint64_t offset, void *bytes, size_t n, size_t *got_out)
+{
+    storage_file *f;
+    *got_out = 0;
+    int result = file_open(s, name, false, &f);
+    if (result != 0)
+        return result == -ENOENT ? 0 : result;
+    if (offset > INT64_MAX - n)
+        return 0;
+    while (*got_out < n) {
+        ssize_t got = pread(f->fd, (char *)bytes + *got_out, n - *got_out, (off_t)(offset + *got_out));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return -errno;
+        if (got == 0)
+            break;
+        *got_out += (size_t)got;
+    }
+    return 0;
+}
+
+int storage_write(storage *s, const char *name, uint64_t offset, const void *bytes, size_t n)
+{
+    storage_file *f;
+    int result = file_open(s, name, true, &f);
+    if (result != 0)
+        return result;
+    if (offset > INT64_MAX - n)
+        return -EFBIG;
+    f->written = true;
+    for (size_t put = 0; put < n;) {
+        ssize_t took = pwrite(f->fd, (const char *)bytes + put, n - put, (off_t)(offset + put));
+        if (took < 0 && errno == EINTR)
+            continue;
+        if (took < 0)
+            return -errno;
+        if (took == 0)
+            return -ENOSPC;
+        put += (size_t)took;
+    }
+    return 0;
+}
+
+int storage_size(storage *s, const char *name, uint64_t *bytes_out, bool *exists_out)
+{
+    struct stat is;
+    *bytes_out = 0;
+    *exists_out = false;
+    if (!name_is_good(name))
+        return -EINVAL;
+    if (fstatat(s->folder_fd, name, &is, AT_SYMLINK_NOFOLLOW) != 0)
+        return errno == ENOENT ? 0 : -errno;
+    *exists_out = true;
+    *bytes_out = (uint64_t)is.st_size;
+    return 0;
+}
+
+int storage_truncate(storage *s, const char *name, uint64_t bytes)
+{
+    storage_file *f;
+    int result = file_open(s, name, true, &f);
+    if (result != 0)
+        return result;
+    if (bytes > INT64_MAX)
+        return -EFBIG;
+    f->written = true;
+    do
+        result = ftruncate(f->fd, (off_t)bytes) == 0 ? 0 : -errno;
+    while (result == -EINTR);
+    return result;
+}
+
+/* --- keeping --- */
+
+int storage_sync(storage *s, const char *name)
+{
+    storage_file *f;
+    int result = file_open(s, name, false, &f);
+    if (result != 0)
+        return result;
+    /* A file from before this storage was opened: nobody knows what of it is on the medium. */
+    f->written = true;
+    return file_sync(s, f);
+}
+
+int storage_rename(storage *s, const char *from, const char *to)
+{
+    storage_file *f;
+    if (!name_is_good(to))
+        return -EINVAL;
+    int result = file_open(s, from, false, &f);
+    if (result == 0 && f->written)
+        result = file_sync(s, f);
+    if (result != 0)
+        return result;
+    if (renameat(s->folder_fd, from, s->folder_fd, to) != 0)
+        return -errno;
+    if (strcmp(from, to) != 0) {
+        storage_file *replaced = file_find(s, to);
+        if (replaced)
+            file_close(replaced);
+        file_close(f);
+    }
+    return folder_sync(s);
+}
+
+int storage_remove(storage *s, const char *name)
+{
+    if (!name_is_good(name))
+        return -EINVAL;
+    storage_file *f = file_find(s, name);
+    if (unlinkat(s->folder_fd, name, 0) != 0 && errno != ENOENT)
+        return -errno;
+    if (f)
+        file_close(f);
+    return 0;
+}

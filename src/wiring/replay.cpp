@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "wiring/replay.h"
+
+#include "exchange/exchange.h"
+#include "wiring/playlist.h"
+#include "wiring/progress.h"
+#include "wiring/scratch_store.h"
+#include "wiring/stage.h"
+#include "wiring/statistics.h"
+#include "wiring/store.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace {
+
+constexpr int64_t FRAME_US = 16667; /* the replay looks up as often as a 60 Hz screen would */
+
+int64_t clock_ns()
+{
+    using namespace std::chrono;
+    return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+int complain(int exit, const std::string &text)
+{
+    std::fprintf(stderr, "glaise: %s\n", text.c_str());
+    return exit;
+}
+
+/* Endings and folders are looked at before anything is done. */
+bool outputs_fit(const arguments &a, std::string *text_out)
+{
+    for (const std::string &file : a.exports)
+        if (exchange_format_of(file) == EXCHANGE_UNKNOWN) {
+            *text_out = file + ": expected a name that ends in one of " + exchange_endings();
+            return false;
+        }
+    for (const std::string &folder : {a.pictures, a.store}) {
+        std::error_code error;
+        if (!folder.empty() && (std::filesystem::create_directories(folder, error), error)) {
+            *text_out = folder + ": " + error.message();
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A performance: the piece, the station, and what is wanted of them. */
+struct performance {
+    const arguments *wanted = nullptr;
+    std::unique_ptr<sculpture> piece = std::make_unique<sculpture>();
+    bool open = false;
+    store *folder = nullptr;
+    scratch_store scratch; /* where no folder is wanted */
+    station *desk = nullptr;
+    stage *scene = nullptr;
+    bool scene_tried = false;
+    statistics counts;
+    std::vector<std::string> written;
+    int exit = 0;
+};
+
+void trouble(performance *p, const std::string &text)
+{
+    std::fprintf(stderr, "\nglaise: %s\n", text.c_str());
+    p->exit = ARGUMENTS_EXIT_TROUBLE;
+}
+
+bool performance_open(performance *p, double step_mm)
+{
+    const arguments &a = *p->wanted;
+    byte_store port = scratch_store_port(&p->scratch);
+    history_finding finding;
+    std::string text;
+    if (!a.store.empty()) {
+        p->folder = store_open(a.store, &port, &text);
+        if (!p->folder) {
+            trouble(p, text);
+            return false;
+        }
+    }
+    status s = sculpture_open(p->piece.get(), &port, CAPACITY_BRICKS, static_cast<uint32_t>(a.ring), step_mm, &finding);
+    if (finding.text[0])
+        std::fprintf(stderr, "glaise: %s: %s\n", a.store.c_str(), finding.text);
+    if (s != STATUS_OK) {
+        trouble(p, (a.store.empty() ? "" : a.store + ": ") + status_text(s));
+        return false;
+    }
+    p->open = true;
+    p->counts.every_dab = !a.statistics.empty();
+    station_ears ears;
+    ears.clock_ns = clock_ns;
+    ears.dab = [p](const station_dab &d) { statistics_dab(&p->counts, d, p->piece.get()); };
+    ears.stroke = [p](status, int64_t history_ns) { statistics_stroke(&p->counts, history_ns); };
+    p->desk = station_open(p->piece.get(), std::move(ears));
+    return true;
+}
+
+void picture_take(performance *p, const std::string &path)
+{
+    std::string text;
+    if (!p->scene && !p->scene_tried) {
+        p->scene_tried = true;
+        p->scene = stage_open(&text);
+        if (!p->scene)
+            trouble(p, "no pictures: " + text);
+    }
+    if (!p->scene)
+        return;
+    if (stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), p->wanted->width, p->wanted->height, path, &text))
+        p->written.push_back(path);
+    else
+        trouble(p, path + ": " + text);
+}
+
+/* What the station asks for or says. */
+void ask(performance *p)
+{
+    std::string text;
+    while (station_message_take(p->desk, &text))
+        std::fprintf(stderr, "\nglaise: %s\n", text.c_str());
+    while (station_picture_take(p->desk, &text))
+        if (!p->wanted->pictures.empty())
+            picture_take(p, (std::filesystem::path(p->wanted->pictures) / text).string());
+}
+
+void perform(performance *p, const playlist &list)
+{
+    progress bar = progress_begin("sculpting");
+    size_t next = 0;
+    for (int64_t frame_us = 0;; frame_us += FRAME_US) {
+        int64_t until_us = std::min(frame_us, list.end_us);
+        for (; next < list.commands.size() && list.commands[next].time_us <= until_us; next++) {
+            station_do(p->desk, list.commands[next]);
+            ask(p);
+        }
+        station_advance(p->desk, until_us);
+        ask(p);
+        double part = list.end_us ? static_cast<double>(until_us) / static_cast<double>(list.end_us) : 1;
+        progress_show(&bar, part, std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners",
+                      clock_ns());
+        if (until_us == list.end_us)
+            break;
+    }
+    if (station_is_applying(p->desk)) { /* a stroke that the tape left open ends with it */
+        command up;
+        up.time_us = list.end_us;
+        up.kind = COMMAND_APPLY;
+        while (station_is_applying(p->desk))
+            station_do(p->desk, up);
+        ask(p);
+    }
+    progress_end(&bar, std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners");
+}
+
+void text_export(performance *p, const std::string &path, const std::string &bytes)
+{
+    std::string text;
+    auto write = [&bytes](checkpoint_sink sink, void *self) { return sink(self, bytes.data(), bytes.size()); };
+    if (store_export(path, write, &text))
+        p->written.push_back(path);
+    else
+        trouble(p, text);
+}
+
+void piece_export(performance *p, const std::string &path)
+{
+    std::string text;
+    exchange_outcome outcome;
+    auto write = [&](checkpoint_sink sink, void *self) {
+        outcome = exchange_write(*p->piece, path, sink, self);
+        return outcome.state;
+    };
+    if (store_export(path, write, &text))
+        p->written.push_back(path);
+    else
+        trouble(p, outcome.text.empty() || outcome.state == STATUS_IO ? text : path + ": " + outcome.text);
+}
+
+void results_write(performance *p)
+{
+    const arguments &a = *p->wanted;
+    if (!a.picture.empty())
+        picture_take(p, a.picture);
+    for (const std::string &file : a.exports)
+        piece_export(p, file);
+    if (!a.statistics.empty())
+        text_export(p, a.statistics, statistics_json(p->counts, p->piece.get()));
+    if (!a.record.empty())
+        text_export(p, a.record, tape_text({p->piece->step_mm, station_recording(p->desk)}));
+}
+
+void performance_close(performance *p)
+{
+    stage_close(p->scene);
+    station_close(p->desk);
+    if (p->open) {
+        status s = sculpture_close(p->piece.get());
+        if (s != STATUS_OK)
+            trouble(p, p->wanted->store + ": " + status_text(s));
+    }
+    store_close(p->folder);
+}
+
+/* A store that an earlier demonstration left is set aside under the next free number. */
+bool store_set_aside(const std::string &store, std::string *text_out)
+{
+    std::error_code error;
+    if (!std::filesystem::exists(store, error))
+        return true;
+    for (int n = 1; n < 10000; n++) {
+        std::string aside = store + "." + std::to_string(n);
+        if (std::filesystem::exists(aside, error))
+            continue;
+        std::filesystem::rename(store, aside, error);
+        *text_out = error ? store + ": " + error.message() : "";
+        std::printf("the earlier store was set aside as %s\n", aside.c_str());
+        return !error;
+    }
+    *text_out = store + ": expected fewer than 10000 earlier ones";
+    return false;
+}
+
+} // namespace
+
+int replay_tape(const arguments &a)
+{
+    playlist list;
+    std::string text;
+    if (!playlist_load(a.settings, a.input, &list, &text) || !outputs_fit(a, &text))
+        return complain(ARGUMENTS_EXIT_WRONG, text);
+    performance p;
+    p.wanted = &a;
+    if (performance_open(&p, a.step_mm > 0 ? a.step_mm : list.step_mm)) {
+        perform(&p, list);
+        results_write(&p);
+        std::fputs(statistics_text(p.counts, p.piece.get()).c_str(), stdout);
+        for (const std::string &file : p.written)
+            std::printf("wrote     %s\n", file.c_str());
+        if (!a.store.empty())
+            std::printf("store     %s\n", a.store.c_str());
+    }
+    performance_close(&p);
+    return p.exit;
+}
+
+int replay_demonstration(const arguments &a, const std::string &config)
+{
+    std::filesystem::path out(a.pictures);
+    arguments b = a;
+    std::string text;
+    b.settings = (std::filesystem::path(config) / "station.tape").string();
+    b.input = (std::filesystem::path(config) / "demonstration.tape").string();
+    b.store = (out / "store").string();
+    b.statistics = (out / "demonstration.json").string();
+    for (const char *ending : {"glaise", "stl", "ply", "obj", "iv"})
+        b.exports.push_back((out / "demonstration.").string() + ending);
+    if (!store_set_aside(b.store, &text))
+        return complain(ARGUMENTS_EXIT_TROUBLE, text);
+    std::printf("no display to open: replaying the demonstration into %s\n", a.pictures.c_str());
+    return replay_tape(b);
+}
+
+/* Opens a piece without history and fills it from a native file. */
+static int piece_read(sculpture *piece, const std::string &path)
+{
+    history_finding finding;
+    std::string text;
+    status s = sculpture_open(piece, nullptr, CAPACITY_BRICKS, 1, SCULPTURE_STEP_MM_DEFAULT, &finding);
+    if (s != STATUS_OK)
+        return complain(ARGUMENTS_EXIT_TROUBLE, status_text(s));
+    exchange_outcome outcome;
+    auto read = [&](checkpoint_source source, void *self) {
+        outcome = exchange_read(*piece, source, self);
+        return outcome.state == STATUS_OK;
+    };
+    if (store_import(path, read, &text))
+        return 0;
+    s = sculpture_close(piece);
+    (void)s; /* nothing is kept of it */
+    bool world = outcome.state == STATUS_OK || outcome.state == STATUS_IO;
+    return complain(world ? ARGUMENTS_EXIT_TROUBLE : ARGUMENTS_EXIT_WRONG, text.empty() ? path + ": " + outcome.text : text);
+}
+
+int replay_export(const arguments &a)
+{
+    std::string text;
+    if (!outputs_fit(a, &text))
+        return complain(ARGUMENTS_EXIT_WRONG, text);
+    performance p;
+    p.wanted = &a;
+    p.exit = piece_read(p.piece.get(), a.input);
+    if (p.exit != 0)
+        return p.exit;
+    p.open = true;
+    for (const std::string &file : a.exports)
+        piece_export(&p, file);
+    performance_close(&p);
+    return p.exit;
+}
+
+int replay_info(const arguments &a)
+{
+    std::string text;
+    exchange_outcome outcome;
+    auto read = [&](checkpoint_source source, void *self) {
+        outcome = exchange_info(source, self);
+        return outcome.state == STATUS_OK;
+    };
+    if (store_import(a.input, read, &text)) {
+        std::printf("%s\n", outcome.text.c_str());
+        return 0;
+    }
+    bool world = outcome.state == STATUS_OK || outcome.state == STATUS_IO;
+    return complain(world ? ARGUMENTS_EXIT_TROUBLE : ARGUMENTS_EXIT_WRONG, text.empty() ? a.input + ": " + outcome.text : text);
+}

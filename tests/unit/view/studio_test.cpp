@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Goal: the sphere map's formula and its inverse agree, and mean what a mirror ball seen from far means.
+ * Method: seeded directions there and back; for an orthographic eye the place must be half the normal plus a half. */
+#include "view/studio.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+std::array<double, 3> unit(std::mt19937 *random)
+{
+    std::normal_distribution<double> n;
+    std::array<double, 3> d = {n(*random), n(*random), n(*random)};
+    const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (double &c : d)
+        c /= length;
+    return d;
+}
+
+TEST(studio, directions_come_back)
+{
+    std::mt19937 random(1);
+    for (int n = 0; n < 5000; n++) {
+        const std::array<double, 3> d = unit(&random);
+        if (d[2] < -0.999)
+            continue; /* the whole rim is that direction */
+        const std::array<double, 3> back = studio_direction(studio_place(d));
+        for (size_t c = 0; c < 3; c++)
+            ASSERT_NEAR(back[c], d[c], 1e-9);
+    }
+}
+
+TEST(studio, a_mirror_ball_seen_from_far_shows_the_map_itself)
+{
+    std::mt19937 random(2);
+    for (int n = 0; n < 5000; n++) {
+        std::array<double, 3> normal = unit(&random);
+        normal[2] = std::abs(normal[2]);
+        /* u = (0, 0, -1): r = u - 2 n (n.u) */
+        const std::array<double, 3> r = {2 * normal[2] * normal[0], 2 * normal[2] * normal[1],
+                                         2 * normal[2] * normal[2] - 1};
+        const std::array<double, 2> place = studio_place(r);
+        ASSERT_NEAR(place[0], normal[0] / 2 + 0.5, 1e-9);
+        ASSERT_NEAR(place[1], normal[1] / 2 + 0.5, 1e-9);
+    }
+}
+
+TEST(studio, the_middle_is_behind_the_viewer)
+{
+    EXPECT_EQ(studio_place({0, 0, 1}), (std::array<double, 2>{0.5, 0.5}));
+    const std::array<double, 3> corner = studio_direction({0.01, 0.99});
+    EXPECT_EQ(corner, (std::array<double, 3>{0, 0, -1})) << "beyond the rim the map goes on as the rim";
+}
+
+TEST(studio, light_is_finite_everywhere_and_brightest_in_the_soft_boxes)
+{
+    std::mt19937 random(4);
+    double most = 0;
+    std::array<double, 3> brightest{};
+    for (int n = 0; n < 20000; n++) {
+        const std::array<double, 3> d = unit(&random);
+        for (double c : studio_light(d)) {
+            ASSERT_TRUE(std::isfinite(c));
+            ASSERT_GT(c, 0);
+            if (c > most) {
+                most = c;
+                brightest = d;
+            }
+        }
+    }
+    EXPECT_GT(most, 1) << "brighter than a screen: what a clear coat shows four hundredths of";
+    EXPECT_LT(brightest[0], 0) << "the key stands left,";
+    EXPECT_GT(brightest[1], 0) << "high,";
+    EXPECT_GT(brightest[2], 0) << "on the viewer's side";
+}
+
+} // namespace

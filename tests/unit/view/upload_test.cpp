@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Goal: only patches whose generation changed are sent; what is gone is no longer drawn; after any sequence of changes
+ *       the device holds what a fresh upload would.
+ * Method: bytes sent are counted while balls of clay are added, touched and removed; pictures of a view that saw every
+ *         step are compared with those of a view that saw only the end. */
+#include "view_stage.h"
+
+#include "view/upload.h"
+
+#include <cstring>
+#include <random>
+
+namespace {
+
+class view_upload : public view_stage {
+  protected:
+    /* A corner's potential is raised: the patches round it change. */
+    static void touch(view_stage_piece *piece, key at)
+    {
+        uint32_t rgba;
+        const float before = clay_read(&piece->it->clay, at, &rgba);
+        ASSERT_EQ(clay_write(&piece->it->clay, at, before * 0.5f + 0.5f, view_stage_rgba(200, 40, 40)), STATUS_OK);
+        piece->update();
+    }
+
+    static uint32_t patches(const view_stage_piece &piece)
+    {
+        uint32_t count = 0;
+        for (uint32_t n = 0; n < surface_slots(&piece.it->surface); n++)
+            count += surface_patch(&piece.it->surface, n) != nullptr;
+        return count;
+    }
+};
+
+TEST_F(view_upload, sends_what_changed_and_nothing_else)
+{
+    view_stage_piece piece;
+    piece.ball({4, 4, 4}, 30, view_stage_rgba(180, 120, 90));
+    update(piece);
+    const view_counts first = view_count(it);
+    EXPECT_EQ(first.patches, patches(piece));
+    EXPECT_EQ(first.uploaded_patches, first.patches);
+    EXPECT_GE(first.uploaded_bytes, piece.it->surface.vertices * 16 + piece.it->surface.triangles * 6);
+
+    update(piece);
+    EXPECT_EQ(view_count(it).uploaded_bytes, first.uploaded_bytes) << "nothing changed";
+
+    const uint64_t before = piece.it->surface.generation;
+    touch(&piece, {34, 4, 4});
+    uint64_t changed = 0;
+    for (uint32_t n = 0; n < surface_slots(&piece.it->surface); n++) {
+        const patch *p = surface_patch(&piece.it->surface, n);
+        changed += p && p->generation > before;
+    }
+    ASSERT_GT(changed, 0u);
+    ASSERT_LT(changed, 9u);
+    update(piece);
+    EXPECT_EQ(view_count(it).uploaded_patches, first.uploaded_patches + changed);
+    EXPECT_GT(view_count(it).uploaded_bytes, first.uploaded_bytes);
+    EXPECT_LT(view_count(it).uploaded_bytes - first.uploaded_bytes, first.uploaded_bytes / 4);
+}
+
+TEST_F(view_upload, drawing_sends_nothing)
+{
+    view_stage_piece piece;
+    piece.ball({0, 0, 0}, 12, view_stage_rgba(180, 120, 90));
+    update(piece);
+    const uint64_t sent = view_count(it).uploaded_bytes;
+    draw(plain());
+    draw(plain());
+    EXPECT_EQ(view_count(it).uploaded_bytes, sent);
+}
+
+TEST_F(view_upload, what_is_gone_is_not_drawn)
+{
+    view_stage_piece piece;
+    piece.ball({0, 0, 0}, 12, view_stage_rgba(180, 120, 90));
+    update(piece);
+    const snapshot s = plain();
+    const view_stage_picture ground = draw_empty(s);
+    EXPECT_GT(draw(s).changed(ground), 500);
+    piece.empty();
+    update(piece);
+    EXPECT_EQ(view_count(it).patches, 0u);
+    EXPECT_EQ(draw(s).apart(ground), 0);
+}
+
+TEST_F(view_upload, many_changes_end_as_a_fresh_upload)
+{
+    view_stage_piece piece;
+    std::mt19937 random(7);
+    auto within = [&](int lo, int hi) { return static_cast<int32_t>(lo + static_cast<int>(random() % static_cast<unsigned>(hi - lo + 1))); };
+    const snapshot s = plain();
+    for (int round = 0; round < 12; round++) {
+        if (round == 6)
+            piece.empty();
+        piece.ball({within(-20, 20), within(-20, 20), within(-20, 20)}, within(4, 9),
+                   view_stage_rgba(static_cast<unsigned>(within(60, 250)), 120, 90));
+        for (int n = 0; n < 10; n++)
+            touch(&piece, {within(-25, 25), within(-25, 25), within(-25, 25)});
+        update(piece);
+        EXPECT_EQ(view_count(it).patches, patches(piece));
+        ASSERT_EQ(draw(s).apart(draw_fresh(s, piece)), 0) << round;
+    }
+}
+
+TEST_F(view_upload, another_sculpture_is_shown_after_forgetting)
+{
+    view_stage_piece first, second;
+    first.ball({0, 0, 0}, 12, view_stage_rgba(180, 120, 90));
+    second.ball({0, 0, 0}, 12, view_stage_rgba(40, 80, 220)); /* same slots, same generations */
+    const snapshot s = plain();
+    update(first);
+    draw(s);
+    view_forget(it);
+    EXPECT_EQ(view_count(it).patches, 0u);
+    update(second);
+    EXPECT_EQ(draw(s).apart(draw_fresh(s, second)), 0);
+}
+
+TEST_F(view_upload, a_surface_whose_generations_fell_back_is_another)
+{
+    view_stage_piece first, second;
+    first.ball({0, 0, 0}, 12, view_stage_rgba(180, 120, 90));
+    for (int n = 0; n < 5; n++)
+        touch(&first, {12, 0, n});
+    second.ball({0, 0, 0}, 12, view_stage_rgba(40, 80, 220));
+    ASSERT_LT(second.it->surface.generation, first.it->surface.generation);
+    update(first);
+    update(second);
+    const snapshot s = plain();
+    EXPECT_EQ(draw(s).apart(draw_fresh(s, second)), 0);
+}
+
+/* A surface of patches made by hand: each one triangle in its own brick, `vertices` long. */
+struct hand_made {
+    surface it;
+    std::vector<std::vector<patch_vertex>> vertices;
+    uint16_t triangle[1][3] = {{0, 1, 2}};
+
+    hand_made(uint32_t count, uint32_t vertices_each) : vertices(count, std::vector<patch_vertex>(vertices_each))
+    {
+        std::memset(&it, 0, sizeof it);
+        EXPECT_EQ(pool_init(&it.patches, sizeof(patch), count), STATUS_OK);
+        for (uint32_t n = 0; n < count; n++) {
+            uint32_t slot = 0;
+            EXPECT_EQ(pool_take(&it.patches, &slot), STATUS_OK);
+            EXPECT_EQ(slot, n);
+            std::memset(pool_at(&it.patches, slot), 0, sizeof(patch));
+            resize(n, vertices_each);
+            at(n)->at = {static_cast<int32_t>(n), 0, 0};
+            at(n)->triangles = triangle;
+            at(n)->triangle_count = 1;
+        }
+    }
+    ~hand_made() { pool_finish(&it.patches); }
+    hand_made(const hand_made &) = delete;
+    hand_made &operator=(const hand_made &) = delete;
+
+    patch *at(uint32_t n) { return static_cast<patch *>(pool_at(&it.patches, n)); }
+    void resize(uint32_t n, uint32_t count)
+    {
+        vertices[n].assign(count, patch_vertex{});
+        at(n)->vertices = vertices[n].data();
+        at(n)->vertex_count = count;
+        at(n)->generation = ++it.generation;
+    }
+};
+
+TEST_F(view_upload, a_full_page_is_followed_by_another)
+{
+    const uint32_t count = UPLOAD_UNITS / 2 + 10;
+    hand_made s(count, UPLOAD_UNIT_VERTICES * 2); /* two units each */
+    upload u;
+    upload_init(&u, false);
+    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+    EXPECT_EQ(u.pages.size(), 2u);
+    EXPECT_EQ(u.pages[0].top, UPLOAD_UNITS);
+    EXPECT_EQ(u.pages[1].top, 20);
+    EXPECT_EQ(u.counts.held, count);
+    std::vector<int> owner(2 * UPLOAD_UNITS, 0);
+    for (const upload_slot &slot : u.slots)
+        for (int n = 0; n < slot.units; n++)
+            owner[slot.page * UPLOAD_UNITS + static_cast<size_t>(slot.first + n)]++;
+    for (int n : owner)
+        EXPECT_LE(n, 1) << "no unit has two patches";
+    upload_finish(&u);
+}
+
+TEST_F(view_upload, freed_units_are_used_again)
+{
+    const uint32_t count = 300;
+    hand_made s(count, 1);
+    upload u;
+    upload_init(&u, true);
+    std::mt19937 random(11);
+    for (int round = 0; round < 60; round++) {
+        for (uint32_t n = 0; n < count; n++)
+            if (random() % 4 == 0)
+                s.resize(n, 1 + random() % 160); /* one to five units: 900 of 2,048 at the mean */
+        ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+        ASSERT_EQ(u.counts.held, count);
+        for (uint32_t n = 0; n < count; n++)
+            ASSERT_GE(static_cast<uint32_t>(u.slots[n].units) * UPLOAD_UNIT_VERTICES, s.at(n)->vertex_count);
+    }
+    EXPECT_EQ(u.pages.size(), 1u);
+    for (uint32_t n = 0; n < count; n++)
+        s.at(n)->triangle_count = 0;
+    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+    EXPECT_EQ(u.counts.held, 0u);
+    EXPECT_EQ(u.pages[0].top, 0);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    upload_finish(&u);
+}
+
+/* Pixels of two layers over each other differ from those of one: each side of a triangle may be drawn only once. */
+TEST_F(view_upload, a_freeforms_sides_are_each_drawn_once)
+{
+    view_stage_piece piece;
+    piece.ball({4, 4, 4}, 12, view_stage_rgba(255, 255, 255));
+    upload u;
+    upload_init(&u, true);
+    ASSERT_TRUE(upload_update(&u, &piece.it->surface, &trouble)) << trouble;
+    size_t lines = 0;
+    for (const upload_page &page : u.pages) {
+        const size_t bytes = static_cast<size_t>(page.top) * UPLOAD_UNIT_LINES * 2 * sizeof(uint16_t);
+        glBindBuffer(GL_COPY_READ_BUFFER, page.lines);
+        const auto *index = static_cast<const uint16_t *>(
+            glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
+        ASSERT_NE(index, nullptr);
+        for (size_t n = 0; n < bytes / sizeof(uint16_t); n += 2)
+            lines += index[n] != index[n + 1];
+        glUnmapBuffer(GL_COPY_READ_BUFFER);
+    }
+    EXPECT_EQ(lines, piece.it->surface.triangles * 3 / 2) << "a closed surface has three sides for two triangles";
+    upload_finish(&u);
+}
+
+} // namespace

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#ifndef GLAISE_SPACEMOUSE_HID_DESCRIPTOR_H
-#define GLAISE_SPACEMOUSE_HID_DESCRIPTOR_H
-
 /*
- * What    Reads a HID report descriptor and says which bits of which input report are axes, buttons and battery.
+ * What:   Reads a HID report descriptor and says which bits of which input report are axes, buttons and battery.
  *         So a SpaceMouse nobody has listed works: the device describes itself.
- * Is not  A decoder of reports over time (spacemouse_report.h). Output and feature reports are stepped over, as is
+ * Is not: A decoder of reports over time (spacemouse_report.h). Output and feature reports are stepped over, as is
  *         every input outside a Multi-axis Controller collection: a mouse on the same interface stays a mouse.
- * Shape   A fixed table of fields in descriptor order. A field is `count` elements of `size_bits` each, one after
+ * Shape:  A fixed table of fields in descriptor order. A field is `count` elements of `size_bits` each, one after
  *         another from `bit`; bit 0 is the lowest bit of the first byte after the report id.
  *             role           elements                 first
  *             AXIS           1 signed or unsigned     which axis, device_event_axis
@@ -17,17 +14,19 @@
  *             BATTERY        1                        0
  *         Report ids 0x1c and 0x1d, with 16-bit elements on the button page or a vendor page, are codes whatever
  *         else the descriptor calls them: there, newer devices list held buttons (0x1d: long presses).
- * Units   Bits, and the device's logical counts.
- * Owner   A value without pointers; copy it. `expected` in an error is a constant string.
- * Errors  Any bytes are safe. A malformed descriptor is refused whole: the table is left empty (not multi-axis) and
+ * Units:  Bits, and the device's logical counts.
+ * Owner:  A value without pointers; copy it. `expected` in an error is a constant string.
+ * Errors: Any bytes are safe. A malformed descriptor is refused whole: the table is left empty (not multi-axis) and
  *         the error holds the offset of the offending item and what was expected there.
- * Cost    One pass; some 4 KiB of stack.
- * Source  USB Device Class Definition for HID 1.11, section 6.2.2; HID Usage Tables, pages 1, 6 and 9.
+ * Cost:   One pass; some 4 KiB of stack.
+ * Source: USB Device Class Definition for HID 1.11, section 6.2.2; HID Usage Tables, pages 1, 6 and 9.
  *         We differ: elements beyond the last usage are padding, not repetitions of it, since two bits cannot be
  *         one button. Logical Maximum is unsigned where Logical Minimum is not negative, as devices in the field
  *         write it. A usage without a page takes the page in force at its main item. Of a delimited set of
  *         usages the first counts. A button array whose usages have gaps is left out.
  */
+#ifndef GLAISE_SPACEMOUSE_HID_DESCRIPTOR_H
+#define GLAISE_SPACEMOUSE_HID_DESCRIPTOR_H
 
 #include <stdbool.h>
 #include <stddef.h>

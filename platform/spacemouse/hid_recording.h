@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#ifndef GLAISE_SPACEMOUSE_HID_RECORDING_H
-#define GLAISE_SPACEMOUSE_HID_RECORDING_H
-
 /*
- * What    Reads a recording of HID devices in the text format of hid-tools' hid-recorder, and plays it through the
+ * What:   Reads a recording of HID devices in the text format of hid-tools' hid-recorder, and plays it through the
  *         descriptor parser and the report decoder into a list of device events. A user's bug report and our tests
  *         are such files.
- * Is not  A reader of files: the text is already in memory. A recorder. A player in real time: events carry times.
- * Shape   One entry a line; blanks around a line and empty lines do not matter:
+ * Is not: A reader of files: the text is already in memory. A recorder. A player in real time: events carry times.
+ * Shape:  One entry a line; blanks around a line and empty lines do not matter:
  *             # anything                                   comment
  *             D: 1                                         the lines after this one speak of device 1 (first: 0)
  *             R: 217 05 01 09 08 ...                       descriptor: byte count (decimal), then bytes (hex)
@@ -17,17 +14,19 @@
  *             E: 000001.024000 7 01 00 00 ...              report: seconds.microseconds, byte count, bytes
  *         A line of any other single capital letter and colon is counted in lines_unknown and skipped, as newer
  *         recorders add kinds. R comes once for each device and before its first E; N and I at most once.
- * Units   time_us: microseconds as recorded, usually from the first report on.
- * Owner   The recording copies what it keeps; the text may go after _init. _finish gives everything back, as
+ * Units:  time_us: microseconds as recorded, usually from the first report on.
+ * Owner:  The recording copies what it keeps; the text may go after _init. _finish gives everything back, as
  *         hid_recording_decoded_finish does for a decoded list.
- * Errors  Any bytes are safe; a recording is taken whole or not at all. The error names the line (from 1; 0 where it
+ * Errors: Any bytes are safe; a recording is taken whole or not at all. The error names the line (from 1; 0 where it
  *         is none's fault) and what was expected there; for a malformed descriptor also the offset in its bytes.
  *         Times that go backwards are an error. After an error the object is empty: _finish does no harm.
- * Cost    One pass. Memory for a text of n bytes: under 8 n + 2 KiB. Decoded: a report makes at most one axes and one
+ * Cost:   One pass. Memory for a text of n bytes: under 8 n + 2 KiB. Decoded: a report makes at most one axes and one
  *         battery event, a bit in it at most one press and later one release.
- * Source  hid-recorder(1), hid-replay(1). We differ: several devices in one file share one clock, and microseconds
+ * Source: hid-recorder(1), hid-replay(1). We differ: several devices in one file share one clock, and microseconds
  *         always have six digits.
  */
+#ifndef GLAISE_SPACEMOUSE_HID_RECORDING_H
+#define GLAISE_SPACEMOUSE_HID_RECORDING_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,26 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#ifndef GLAISE_SPACEMOUSE_SPACEMOUSE_REPORT_H
-#define GLAISE_SPACEMOUSE_SPACEMOUSE_REPORT_H
-
 /*
- * What    Turns the input reports of one SpaceMouse into device events. Every driver (libusb, hidapi) and the player of
+ * What:   Turns the input reports of one SpaceMouse into device events. Every driver (libusb, hidapi) and the player of
  *         recordings decode here.
- * Is not  A driver, a reader of descriptors (hid_descriptor.h), a dead zone or speed curve (station). It does not
+ * Is not: A driver, a reader of descriptors (hid_descriptor.h), a dead zone or speed curve (station). It does not
  *         guess that a silent puck let go: a driver that knows its device's pace does.
- * Shape   State of one device: its descriptor, where the six axes stand, which buttons are down.
+ * Shape:  State of one device: its descriptor, where the six axes stand, which buttons are down.
  *         Translation and rotation may come in separate reports: a half that has not come keeps its last value.
  *         Buttons come as bits, as codes now down, or as both for the same press; once a report of codes was seen
  *         the bits are ignored. Either way only changes make events.
  *         One report makes at most one AXES, one BATTERY and one BUTTON per button that changed, in this order,
  *         buttons ascending, long presses after short ones.
- * Units   Raw counts (device_event.h), never clamped to the logical range, only to int16; battery in percent.
- * Owner   A value without pointers; nothing to give back.
- * Errors  Any bytes are safe. A report of an id the descriptor does not list is counted in reports_unknown; one that
+ * Units:  Raw counts (device_event.h), never clamped to the logical range, only to int16; battery in percent.
+ * Owner:  A value without pointers; nothing to give back.
+ * Errors: Any bytes are safe. A report of an id the descriptor does not list is counted in reports_unknown; one that
  *         ends before the first element we want is counted in reports_short; the state stays as it was. A report
  *         that ends early is decoded as far as it goes: axes and bits beyond keep their value, codes beyond are up.
  *         Buttons from SPACEMOUSE_REPORT_BUTTONS_MAX on are ignored.
- * Cost    One pass over the fields and bits of the report's id; no allocation.
+ * Cost:   One pass over the fields and bits of the report's id; no allocation.
  */
+#ifndef GLAISE_SPACEMOUSE_SPACEMOUSE_REPORT_H
+#define GLAISE_SPACEMOUSE_SPACEMOUSE_REPORT_H
 
 #include <stdbool.h>
 #include <stddef.h>

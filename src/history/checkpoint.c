@@ -311,7 +311,7 @@ static status get_bricks(reader *r, const checkpoint_facts *f, clay *fresh)
     for (uint64_t n = 0; n < f->bricks; n++) {
         key at;
         brick_mask mask;
-        uint32_t stored, id;
+        uint32_t stored = 0, id = POOL_NONE;
         status s = get_brick_head(r, &at, &mask, &stored);
         if (s != STATUS_OK)
             return s;

@@ -55,19 +55,16 @@ static status validate(const cursor_file *f, preamble_trouble *trouble)
 
 status cursor_file_read(cursor_file *f_out, const byte_store *store, bool *exists_out, preamble_trouble *trouble_out)
 {
-    uint8_t h[PREAMBLE_HEADER_BYTES_MAX + 1];
+    uint8_t h[PREAMBLE_HEADER_BYTES_MAX];
     size_t have = 0;
     uint64_t size = 0;
-    status s = store->size(store->self, CURSOR_FILE_NAME, &size, exists_out);
+    status s = whole_file_read_head(store, CURSOR_FILE_NAME, h, sizeof h, &have, &size, exists_out);
     if (s != STATUS_OK || !*exists_out)
-        return s;
-    s = store->read(store->self, CURSOR_FILE_NAME, 0, h, sizeof h, &have);
-    if (s != STATUS_OK)
         return s;
     s = preamble_check(&header_preamble, h, have, trouble_out);
     if (s != STATUS_OK)
         return s;
-    if (have != CURSOR_FILE_BYTES || byte_order_get_u32(h + ZERO_AT) != 0)
+    if (size != CURSOR_FILE_BYTES || byte_order_get_u32(h + ZERO_AT) != 0)
         return refuse(trouble_out, CURSOR_FILE_BYTES, "the end of the file");
     cursor_file f = {
         .oldest = byte_order_get_u64(h + OLDEST_AT),

@@ -2,6 +2,7 @@
 #include "history/undo_ring.h"
 
 #include "history/sentence.h"
+#include "history/whole_file.h"
 
 undo_ring_name undo_ring_name_of(uint32_t ring, uint64_t stroke)
 {
@@ -15,20 +16,19 @@ undo_ring_name undo_ring_name_of(uint32_t ring, uint64_t stroke)
 status undo_ring_look(undo_ring_slot *slot_out, const byte_store *store, uint32_t ring, uint64_t stroke)
 {
     *slot_out = (undo_ring_slot){.state = UNDO_RING_UNREADABLE};
-    undo_ring_name name = undo_ring_name_of(ring, stroke);
+    uint8_t header[PREAMBLE_HEADER_BYTES_MAX];
+    size_t have = 0;
     uint64_t size = 0;
     bool exists = false;
-    if (store->size(store->self, name.text, &size, &exists) != STATUS_OK)
+    status s = whole_file_read_head(store, undo_ring_name_of(ring, stroke).text, header, sizeof header, &have, &size,
+                                    &exists);
+    if (s != STATUS_OK)
         return STATUS_OK;
     if (!exists) {
         slot_out->state = UNDO_RING_ABSENT;
         return STATUS_OK;
     }
-    uint8_t header[PREAMBLE_HEADER_BYTES_MAX];
-    size_t have = 0;
-    if (store->read(store->self, name.text, 0, header, sizeof header, &have) != STATUS_OK)
-        return STATUS_OK;
-    status s = undo_file_read_facts(&slot_out->facts, header, have, &slot_out->trouble);
+    s = undo_file_read_facts(&slot_out->facts, header, have, &slot_out->trouble);
     if (s == STATUS_NEWER)
         return s;
     if (s == STATUS_OK && slot_out->facts.bytes != size) {

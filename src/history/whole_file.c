@@ -5,6 +5,21 @@
 
 enum { SET_ASIDE_TRIES = 10000 };
 
+/* A store that gives less than it has is asked again: only nothing at all means the end. */
+static status read_from_start(const byte_store *store, const char *name, uint8_t *bytes, size_t n, size_t *got_out)
+{
+    status s = STATUS_OK;
+    *got_out = 0;
+    while (s == STATUS_OK && *got_out < n) {
+        size_t got = 0;
+        s = store->read(store->self, name, *got_out, bytes + *got_out, n - *got_out, &got);
+        if (got == 0)
+            break;
+        *got_out += got;
+    }
+    return s;
+}
+
 status whole_file_read(const byte_store *store, const char *name, byte_buffer *out, bool *exists_out)
 {
     uint64_t size = 0;
@@ -16,14 +31,18 @@ status whole_file_read(const byte_store *store, const char *name, byte_buffer *o
     if (size > SIZE_MAX)
         return STATUS_NO_MEMORY;
     s = byte_buffer_reserve(out, (size_t)size);
-    while (s == STATUS_OK && out->size < size) {
-        size_t got = 0;
-        s = store->read(store->self, name, out->size, out->bytes + out->size, (size_t)size - out->size, &got);
-        if (got == 0)
-            break;
-        out->size += got;
-    }
-    return s;
+    return s == STATUS_OK ? read_from_start(store, name, out->bytes, (size_t)size, &out->size) : s;
+}
+
+status whole_file_read_head(const byte_store *store, const char *name, void *bytes, size_t n, size_t *got_out,
+                            uint64_t *size_out, bool *exists_out)
+{
+    *got_out = 0;
+    *exists_out = false;
+    status s = store->size(store->self, name, size_out, exists_out);
+    if (s != STATUS_OK || !*exists_out)
+        return s;
+    return read_from_start(store, name, (uint8_t *)bytes, n, got_out);
 }
 
 status whole_file_write(const byte_store *store, const char *temporary, const void *bytes, size_t n)

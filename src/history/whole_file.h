@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Named files of a byte store taken as wholes: read into a buffer, replaced atomically, set aside.
+ * What:    Named files of a byte store taken as wholes: read, replaced atomically, set aside.
  * Is not:  Any format; the store (byte_store.h).
  * Shape:   replacing is: remove what an earlier try left under the temporary name, write it anew, sync, rename. So
  *          bytes that a failed sync may have dropped are never synced a second time, and a reader sees the old file or
@@ -20,6 +20,10 @@ extern "C" {
 
 /* The whole file; absent: *exists_out false, size 0. */
 STATUS_CHECKED status whole_file_read(const byte_store *store, const char *name, byte_buffer *out, bool *exists_out);
+
+/* The first n bytes, fewer if it has no more; absent: *exists_out false. *size_out is that of the whole file. */
+STATUS_CHECKED status whole_file_read_head(const byte_store *store, const char *name, void *bytes, size_t n,
+                                           size_t *got_out, uint64_t *size_out, bool *exists_out);
 
 /* The first half of replacing: after STATUS_OK the bytes are durable under the temporary name; the store's rename is
    the other. */

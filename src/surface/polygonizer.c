@@ -4,6 +4,7 @@
 #include "clay/colour.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Vertices keep this distance, in steps, from the ends of their edges: those of one corner never coincide. */
 #define END_CLEARANCE 1e-3f
@@ -12,30 +13,54 @@
 
 enum { STRIDE_I = APRON_SIDE_MAX * APRON_SIDE_MAX, STRIDE_J = APRON_SIDE_MAX, STRIDE_K = 1 };
 
-static int apron_slot(int di, int dj, int dk)
+static const int stride_of[3] = {STRIDE_I, STRIDE_J, STRIDE_K};
+
+/* --- which cubes cross --- */
+
+/* Bit n: row[n] >= at_least. */
+static unsigned eight_bits(const float *row, float at_least)
 {
-    return (di - APRON_LO) * STRIDE_I + (dj - APRON_LO) * STRIDE_J + (dk - APRON_LO);
+    uint8_t flag[8];
+    for (int n = 0; n < 8; n++)
+        flag[n] = row[n] >= at_least;
+    uint64_t bytes;
+    memcpy(&bytes, flag, sizeof bytes);
+    /* Byte n holds 0 or 1: the product moves it to bit 56 + n, and no two terms meet. Both machines are little-endian. */
+    return (unsigned)(bytes * 0x0102040810204080u >> 56);
 }
 
-/* Bits dk 0..8 of one row of corners: potential >= at_least. */
-static unsigned row_bits(const float *row, float at_least)
+/* The corners 0..8 an axis that are at or over a potential, read where they lie. */
+static void rows_read(const polygonizer *p, float at_least, uint16_t rows_out[PATCH_SIDE][PATCH_SIDE])
 {
-    unsigned bits = 0;
-    for (int dk = 0; dk < PATCH_SIDE; dk++)
-        bits |= (unsigned)(row[dk] >= at_least) << dk;
-    return bits;
-}
-
-void polygonizer_fill(polygonizer *p, const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS])
-{
-    apron_gather(c, neighbours, APRON_HI_MAX, p->potential, NULL);
     for (int di = 0; di < PATCH_SIDE; di++)
-        for (int dj = 0; dj < PATCH_SIDE; dj++)
-            p->inside[di][dj] = (uint16_t)row_bits(&p->potential[apron_slot(di, dj, 0)], POTENTIAL_ISO);
-    for (int n = 0; n < 8; n++) {
-        uint32_t id = neighbours[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)];
-        p->rgba[n] = id == POOL_NONE ? NULL : clay_brick(c, id)->page->rgba;
+        for (int dj = 0; dj < PATCH_SIDE; dj++) {
+            const uint32_t *ids = &p->neighbours[brick_neighbour_index(di >> 3, dj >> 3, 0)];
+            int slot = (di & 7) << 6 | (dj & 7) << 3;
+            unsigned bits = 0;
+            if (ids[0] != POOL_NONE)
+                bits = eight_bits(&clay_brick(p->of, ids[0])->page->potential[slot], at_least);
+            if (ids[1] != POOL_NONE)
+                bits |= (unsigned)(clay_brick(p->of, ids[1])->page->potential[slot] >= at_least) << 8;
+            rows_out[di][dj] = (uint16_t)bits;
+        }
+}
+
+void polygonizer_look(polygonizer *p, const clay *c, key brick_at)
+{
+    p->of = c;
+    p->at = brick_at;
+    uint32_t id = clay_find(c, brick_at);
+    if (id != POOL_NONE) {
+        memcpy(p->neighbours, clay_brick(c, id)->neighbour, sizeof p->neighbours);
+    } else {
+        /* Most empty bricks at the clay's border cross nothing: their cubes' corners are all that is searched for. */
+        p->neighbours[BRICK_SELF] = POOL_NONE;
+        for (int n = 1; n < 8; n++) {
+            int di = n >> 2, dj = n >> 1 & 1, dk = n & 1;
+            p->neighbours[brick_neighbour_index(di, dj, dk)] = clay_find(c, key_add(brick_at, di, dj, dk));
+        }
     }
+    rows_read(p, POTENTIAL_ISO, p->inside);
 }
 
 void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out)
@@ -53,14 +78,9 @@ void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out)
 
 uint32_t polygonizer_stored_cubes(const polygonizer *p)
 {
-    unsigned stored[PATCH_SIDE][PATCH_SIDE];
+    uint16_t stored[PATCH_SIDE][PATCH_SIDE];
+    rows_read(p, nextafterf(POTENTIAL_MIN, POTENTIAL_MAX), stored);
     uint32_t sum = 0;
-    for (int di = 0; di < PATCH_SIDE; di++)
-        for (int dj = 0; dj < PATCH_SIDE; dj++) {
-            stored[di][dj] = 0;
-            for (int dk = 0; dk < PATCH_SIDE; dk++)
-                stored[di][dj] |= (unsigned)(p->potential[apron_slot(di, dj, dk)] > POTENTIAL_MIN) << dk;
-        }
     for (int di = 0; di < BRICK_EDGE; di++)
         for (int dj = 0; dj < BRICK_EDGE; dj++) {
             unsigned any = stored[di][dj] | stored[di][dj + 1] | stored[di + 1][dj] | stored[di + 1][dj + 1];
@@ -69,23 +89,26 @@ uint32_t polygonizer_stored_cubes(const polygonizer *p)
     return sum;
 }
 
-/* COLOUR_NONE and false when the corner is not stored. */
-static bool corner_rgba(const polygonizer *p, const int d[3], float potential, uint32_t *rgba_out)
+/* --- vertices --- */
+
+static const float *apron_at(const polygonizer *p, int di, int dj, int dk)
 {
-    if (!(potential > POTENTIAL_MIN))
-        return false;
-    const uint32_t *page = p->rgba[(d[0] >> 3) * 4 + (d[1] >> 3) * 2 + (d[2] >> 3)];
-    *rgba_out = page[(d[0] & 7) << 6 | (d[1] & 7) << 3 | (d[2] & 7)];
-    return true;
+    return &p->potential[(di - APRON_LO) * STRIDE_I + (dj - APRON_LO) * STRIDE_J + (dk - APRON_LO)];
+}
+
+/* Of a stored corner, 0..8 an axis. */
+static uint32_t corner_rgba(const polygonizer *p, const int d[3])
+{
+    uint32_t id = p->neighbours[brick_neighbour_index(d[0] >> 3, d[1] >> 3, d[2] >> 3)];
+    return clay_brick(p->of, id)->page->rgba[(d[0] & 7) << 6 | (d[1] & 7) << 3 | (d[2] & 7)];
 }
 
 /* Twice the gradient at a corner would be the same direction: differences are left undivided. */
 static void normal_make(const float *in, const float *out, float t, int axis, bool upwards, float normal_out[3])
 {
-    static const int stride[3] = {STRIDE_I, STRIDE_J, STRIDE_K};
     float g[3];
     for (int n = 0; n < 3; n++) {
-        float at_in = in[stride[n]] - in[-stride[n]], at_out = out[stride[n]] - out[-stride[n]];
+        float at_in = in[stride_of[n]] - in[-stride_of[n]], at_out = out[stride_of[n]] - out[-stride_of[n]];
         g[n] = (1.0f - t) * at_in + t * at_out;
     }
     float squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
@@ -99,28 +122,35 @@ static void normal_make(const float *in, const float *out, float t, int axis, bo
         normal_out[n] = g[n] * scale;
 }
 
-static void vertex_make(polygonizer *p, int di, int dj, int dk, int axis)
+static void vertex_make(const polygonizer *p, int di, int dj, int dk, int axis, patch_vertex *v)
 {
-    static const int stride[3] = {STRIDE_I, STRIDE_J, STRIDE_K};
-    patch_vertex *v = &p->vertices[p->vertex_count];
-    const float *low = &p->potential[apron_slot(di, dj, dk)], *high = low + stride[axis];
+    const float *low = apron_at(p, di, dj, dk), *high = low + stride_of[axis];
     bool upwards = *low >= POTENTIAL_ISO; /* out of the clay is up the axis */
     const float *in = upwards ? low : high, *out = upwards ? high : low;
     float t = (*in - POTENTIAL_ISO) / (*in - *out);
-    float t_kept = t < END_CLEARANCE ? END_CLEARANCE : t > 1.0f - END_CLEARANCE ? 1.0f - END_CLEARANCE : t;
+    float kept = t < END_CLEARANCE ? END_CLEARANCE : t;
+    kept = kept > 1.0f - END_CLEARANCE ? 1.0f - END_CLEARANCE : kept;
 
-    int d_in[3] = {di, dj, dk}, d_out[3] = {di, dj, dk};
-    (upwards ? d_out : d_in)[axis]++;
     v->position[0] = (float)di;
     v->position[1] = (float)dj;
     v->position[2] = (float)dk;
-    v->position[axis] += upwards ? t_kept : 1.0f - t_kept;
+    v->position[axis] += upwards ? kept : 1.0f - kept;
     normal_make(in, out, t, axis, upwards, v->normal);
-    uint32_t rgba_in = COLOUR_NONE, rgba_out = COLOUR_NONE;
-    corner_rgba(p, d_in, *in, &rgba_in);
-    v->rgba = corner_rgba(p, d_out, *out, &rgba_out) ? colour_mix(rgba_in, rgba_out, t, 0.5f) : rgba_in;
-    v->edge = (uint32_t)(((di * PATCH_SIDE + dj) * PATCH_SIDE + dk) * 3 + axis);
-    p->vertex_of[v->edge] = (uint16_t)p->vertex_count++;
+
+    int d_in[3] = {di, dj, dk}, d_out[3] = {di, dj, dk};
+    d_in[axis] += !upwards;
+    d_out[axis] += upwards;
+    uint32_t rgba_in = corner_rgba(p, d_in), rgba_out = *out > POTENTIAL_MIN ? corner_rgba(p, d_out) : rgba_in;
+    v->rgba = colour_mix(rgba_in, rgba_out, t, 0.5f);
+}
+
+/* Bit n of nine becomes bit 3 n. */
+static unsigned spread_by_three(unsigned x)
+{
+    x = (x | x << 16) & 0x030000ffu;
+    x = (x | x << 8) & 0x0300f00fu;
+    x = (x | x << 4) & 0x030c30c3u;
+    return (x | x << 2) & 0x09249249u;
 }
 
 /* Every sign change between neighbours among the 9^3 corners is a cut edge of some cube of the patch. */
@@ -129,30 +159,36 @@ static void vertices_make(polygonizer *p)
     p->vertex_count = 0;
     for (int di = 0; di < PATCH_SIDE; di++)
         for (int dj = 0; dj < PATCH_SIDE; dj++) {
-            unsigned row = p->inside[di][dj], cut[3];
-            cut[0] = di < BRICK_EDGE ? row ^ p->inside[di + 1][dj] : 0;
-            cut[1] = dj < BRICK_EDGE ? row ^ p->inside[di][dj + 1] : 0;
-            cut[2] = (row ^ row >> 1) & 0xff;
-            for (unsigned left = cut[0] | cut[1] | cut[2]; left; left &= left - 1) {
-                int dk = __builtin_ctz(left);
-                for (int axis = 0; axis < 3; axis++)
-                    if (cut[axis] >> dk & 1)
-                        vertex_make(p, di, dj, dk, axis);
+            unsigned row = p->inside[di][dj];
+            unsigned cut_i = di < BRICK_EDGE ? row ^ p->inside[di + 1][dj] : 0;
+            unsigned cut_j = dj < BRICK_EDGE ? row ^ p->inside[di][dj + 1] : 0;
+            unsigned cut_k = (row ^ row >> 1) & 0xff;
+            if ((cut_i | cut_j | cut_k) == 0)
+                continue;
+            unsigned left = spread_by_three(cut_i) | spread_by_three(cut_j) << 1 | spread_by_three(cut_k) << 2;
+            for (; left; left &= left - 1) {
+                int name = __builtin_ctz(left), edge = (di * PATCH_SIDE + dj) * PATCH_SIDE * 3 + name;
+                patch_vertex *v = &p->vertices[p->vertex_count];
+                vertex_make(p, di, dj, name / 3, name % 3, v);
+                v->edge = (uint32_t)edge;
+                p->vertex_of[edge] = (uint16_t)p->vertex_count++;
             }
         }
 }
+
+/* --- triangles --- */
 
 /* Corners c = dx + 2 dy + 4 dz of the cube at (di, dj, dk). */
 static int cube_index(const polygonizer *p, int di, int dj, int dk)
 {
     const uint16_t *a = &p->inside[di][dj], *b = &p->inside[di + 1][dj];
-    unsigned r[4] = {a[0] >> dk, b[0] >> dk, a[1] >> dk, b[1] >> dk};
+    unsigned r[4] = {(unsigned)a[0] >> dk, (unsigned)b[0] >> dk, (unsigned)a[1] >> dk, (unsigned)b[1] >> dk};
     unsigned near = (r[0] & 1) | (r[1] & 1) << 1 | (r[2] & 1) << 2 | (r[3] & 1) << 3;
     unsigned far = (r[0] & 2) << 3 | (r[1] & 2) << 4 | (r[2] & 2) << 5 | (r[3] & 2) << 6;
     return (int)(near | far);
 }
 
-void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing)
+static void triangles_make(polygonizer *p, const case_table *t, const brick_mask *crossing)
 {
     int name[CASE_TABLE_EDGES]; /* of a cube's edges, for the cube at (0, 0, 0) */
     for (int e = 0; e < CASE_TABLE_EDGES; e++) {
@@ -160,7 +196,6 @@ void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *cro
         case_table_edge(e, &c, &to);
         name[e] = (((c & 1) * PATCH_SIDE + (c >> 1 & 1)) * PATCH_SIDE + (c >> 2)) * 3 + e / 4;
     }
-    vertices_make(p);
     p->triangle_count = 0;
     for (int di = 0; di < BRICK_EDGE; di++)
         for (uint64_t left = crossing->slab[di]; left; left &= left - 1) {
@@ -173,4 +208,13 @@ void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *cro
                     out[corner] = p->vertex_of[base + name[e[corner]]];
             }
         }
+}
+
+void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing)
+{
+    if (p->neighbours[BRICK_SELF] == POOL_NONE)
+        clay_neighbours(p->of, p->at, p->neighbours);
+    apron_gather(p->of, p->neighbours, APRON_HI_MAX, p->potential, NULL);
+    vertices_make(p);
+    triangles_make(p, t, crossing);
 }

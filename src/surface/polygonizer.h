@@ -3,12 +3,13 @@
  * What:    Makes one patch: reads a brick and the layers round it, says which of its cubes cross the surface, and turns
  *          those into vertices and triangles.
  * Is not:  The keeper of patches, nor does it know which are stale (surface.h).
- * Shape:   polygonizer_fill -> polygonizer_crossing -> polygonizer_make; the result stays in `vertices` and `triangles`
+ * Shape:   polygonizer_look -> polygonizer_crossing -> polygonizer_make; the result stays in `vertices` and `triangles`
  *          until the next make. Order and fields: patch.h; position, normal and colour: surface.h.
  * Units:   lattice steps from the brick's smallest corner.
- * Owner:   the caller; 90 KiB, no memory besides, one per thread.
+ * Owner:   the caller; 90 KiB, no memory besides, one per thread. It reads the clay between look and make.
  * Errors:  None.
- * Cost:    fill: one apron of potentials. crossing: eight cubes at a time. make: per crossing cube and cut edge.
+ * Cost:    look and crossing: rows of eight, a fraction of a microsecond. make: an apron of potentials, then per cut edge
+ *          and crossing cube.
  * Source:  000 section 3.2.
  */
 #ifndef GLAISE_SURFACE_POLYGONIZER_H
@@ -25,17 +26,18 @@ extern "C" {
 enum { POLYGONIZER_TRIANGLES_MAX = (int)BRICK_CORNERS * (int)CASE_TABLE_TRIANGLES_MAX };
 
 typedef struct polygonizer {
-    float potential[APRON_CORNERS_MAX];      /* corners -1..9 an axis */
+    const clay *of;
+    key at;
+    uint32_t neighbours[BRICK_NEIGHBOURS];   /* the seven upper ones and the brick; all 27 when it is stored */
     uint16_t inside[PATCH_SIDE][PATCH_SIDE]; /* [di][dj], bit dk: corners 0..8 at or over iso */
-    const uint32_t *rgba[8];                 /* colours of the bricks 0..1 an axis, k fastest; NULL where none is stored */
+    float potential[APRON_CORNERS_MAX];      /* corners -1..9 an axis */
     uint16_t vertex_of[PATCH_EDGE_NAMES];    /* of cut edges only */
     uint32_t vertex_count, triangle_count;
     patch_vertex vertices[PATCH_VERTICES_MAX];
     uint16_t triangles[POLYGONIZER_TRIANGLES_MAX][3];
 } polygonizer;
 
-/* neighbours: of the brick, as clay_neighbours gives them. */
-void polygonizer_fill(polygonizer *p, const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS]);
+void polygonizer_look(polygonizer *p, const clay *c, key brick_at);
 void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out);
 /* Number of the brick's cubes that have a stored corner: its part of the paper's CubesTree. */
 uint32_t polygonizer_stored_cubes(const polygonizer *p);

@@ -186,15 +186,6 @@ static status patch_remake(surface *s, polygonizer *p, key at, uint32_t slot, co
     return STATUS_OK;
 }
 
-/* Do the cubes of a brick, which reach into its seven upper neighbours, have a stored corner at all? */
-static bool any_stored(const uint32_t ids[BRICK_NEIGHBOURS])
-{
-    for (int n = 0; n < 8; n++)
-        if (ids[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)] != POOL_NONE)
-            return true;
-    return false;
-}
-
 static bool masks_meet(const brick_mask *a, const brick_mask *b)
 {
     uint64_t both = 0;
@@ -208,12 +199,8 @@ static status brick_update(surface *s, const clay *c, const stale_entry *e, poly
     const brick_mask none = {{0}}, *before = e->slot == POOL_NONE ? &none : &patch_at(s, e->slot)->crossing;
     if (brick_mask_is_empty(&e->examined) && !masks_meet(&e->aged, before))
         return STATUS_OK;
-    uint32_t ids[BRICK_NEIGHBOURS];
-    clay_neighbours(c, e->at, ids);
-    if (e->slot == POOL_NONE && !any_stored(ids))
-        return STATUS_OK;
-    polygonizer_fill(p, c, ids);
     brick_mask now;
+    polygonizer_look(p, c, e->at);
     polygonizer_crossing(p, &now);
     for (int n = 0; n < BRICK_EDGE; n++)
         now.slab[n] = (now.slab[n] & e->examined.slab[n]) | (before->slab[n] & ~e->examined.slab[n]);
@@ -245,10 +232,8 @@ status surface_update(surface *s, const clay *c, surface_counts *counts_out)
 
 static status brick_rebuild(surface *s, const clay *c, key at, polygonizer *p, surface_counts *counts)
 {
-    uint32_t ids[BRICK_NEIGHBOURS];
-    clay_neighbours(c, at, ids);
-    polygonizer_fill(p, c, ids);
     brick_mask crossing;
+    polygonizer_look(p, c, at);
     polygonizer_crossing(p, &crossing);
     counts->treated += polygonizer_stored_cubes(p);
     return patch_remake(s, p, at, POOL_NONE, &crossing, counts);

@@ -73,11 +73,13 @@ float layer(float facing)
     return COAT_F0 + (1.0 - COAT_F0) * pow(1.0 - min(abs(facing), 1.0), 5.0);
 }
 
-/* The line where the clay crosses the limit of the tool's influence, one and a half pixels wide. */
+/* The line where the clay crosses the limit of the tool's influence, some two pixels wide. At the clay's rim a pixel
+   spans much of the clay: what lies far from the limit is no part of the line there. */
 float ring()
 {
     float rho = length((u_tool_from_eye * vec4(v_eye, 1.0)).xyz);
-    return 1.0 - smoothstep(0.5, 1.5, abs(rho - 1.0) / max(fwidth(rho), 1e-6));
+    float away = abs(rho - 1.0);
+    return (1.0 - smoothstep(0.5, 1.5, away / max(fwidth(rho), 1e-6))) * (1.0 - smoothstep(0.08, 0.16, away));
 }
 
 void main()

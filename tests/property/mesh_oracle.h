@@ -23,22 +23,31 @@
 struct mesh_oracle_less {
     bool operator()(const key &a, const key &b) const { return key_compare(a, b) < 0; }
 };
-using mesh_oracle_keys = std::set<key, mesh_oracle_less>;
 
-inline key mesh_oracle_step(key c, int axis, int by) { return key_add(c, axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0); }
+inline key mesh_oracle_step(key c, int axis, int by)
+{
+    return key_add(c, axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0);
+}
 
-/* Every corner within one cube of those given: the cubes that share one of them, by smallest corner. */
-inline mesh_oracle_keys mesh_oracle_cubes(const std::vector<key> &corners)
+/* Ascending, each once. */
+inline std::vector<key> mesh_oracle_sorted(std::vector<key> all)
+{
+    std::sort(all.begin(), all.end(), mesh_oracle_less{});
+    all.erase(std::unique(all.begin(), all.end(), key_equal), all.end());
+    return all;
+}
+
+/* The cubes that share one of these corners, by smallest corner, ascending. */
+inline std::vector<key> mesh_oracle_cubes(const std::vector<key> &corners)
 {
     std::vector<key> all;
     for (const key &c : corners)
         for (int n = 0; n < 8; n++)
             all.push_back(key_add(c, -(n & 1), -(n >> 1 & 1), -(n >> 2)));
-    std::sort(all.begin(), all.end(), mesh_oracle_less{});
-    all.erase(std::unique(all.begin(), all.end(), key_equal), all.end());
-    return {all.begin(), all.end()};
+    return mesh_oracle_sorted(all);
 }
 
+/* The corners and their six neighbours, ascending. */
 inline std::vector<key> mesh_oracle_with_six(const std::vector<key> &corners)
 {
     std::vector<key> all = corners;
@@ -47,7 +56,7 @@ inline std::vector<key> mesh_oracle_with_six(const std::vector<key> &corners)
             all.push_back(mesh_oracle_step(c, axis, -1));
             all.push_back(mesh_oracle_step(c, axis, 1));
         }
-    return all;
+    return mesh_oracle_sorted(all);
 }
 
 /* Bit c = dx + 2 dy + 4 dz. */
@@ -74,7 +83,8 @@ inline std::vector<key> mesh_oracle_stored(const clay *c)
 
 inline double mesh_oracle_difference(const clay *c, key at, int axis)
 {
-    return double(clay_read(c, mesh_oracle_step(at, axis, 1), nullptr)) - clay_read(c, mesh_oracle_step(at, axis, -1), nullptr);
+    const double after = clay_read(c, mesh_oracle_step(at, axis, 1), nullptr);
+    return after - clay_read(c, mesh_oracle_step(at, axis, -1), nullptr);
 }
 
 /* What is wrong with one vertex, or nothing. */

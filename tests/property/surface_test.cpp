@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr int steps_short = 700, long_factor = 20, steps_between_meshes = 20, steps_between_judgements = 70;
+constexpr int steps_short = 500, long_factor = 20, steps_between_meshes = 20, steps_between_judgements = 70;
 
 /* The standard's generator is the same everywhere, its distributions are not. */
 struct dice {
@@ -104,7 +104,7 @@ std::vector<key> edit_somewhere(clay *c, dice *d, key place)
 /* Patches that one of the aged cubes crosses or crossed, and that are still there. */
 uint32_t remade_patches(const std::vector<key> &dirtied, const seen_patches &before, const seen_patches &after)
 {
-    mesh_oracle_keys remade;
+    std::set<key, mesh_oracle_less> remade;
     for (const key &cube : mesh_oracle_cubes(mesh_oracle_with_six(dirtied))) {
         const key at = key_brick(cube);
         const auto old = before.find(at), now = after.find(at);

@@ -132,7 +132,7 @@ TEST_F(reconstruct_field, never_leaves_the_range)
         const float v = reconstruct_potential(&r, seeded_real(chance, 0, 7), seeded_real(chance, 0, 7),
                                               seeded_real(chance, 0, 7), nullptr);
         ASSERT_LE(v, POTENTIAL_MAX);
-        ASSERT_GT(v, POTENTIAL_MAX - 1e-6f);
+        ASSERT_GT(v, POTENTIAL_MAX - 2e-6f);
     }
 }
 

@@ -105,6 +105,7 @@ TEST(exchange, unknown_ending_lists_what_is_known)
     }
     bucket b;
     EXPECT_NE(exchange_write(*s, "owl.3mf", bucket_put, &b).text.find(".3mf"), std::string::npos);
+    EXPECT_NE(exchange_write(*s, "/a.b/owl", bucket_put, &b).text.find("without an ending"), std::string::npos);
 }
 
 TEST(exchange, every_mesh_ending_writes_the_surface)

@@ -280,13 +280,13 @@ TEST(hid_descriptor, a_usage_range_works_for_axes_and_in_either_order)
 
 TEST(hid_descriptor, several_usage_ranges_follow_one_another)
 {
-    /* Rz..Rz, then X..Y. */
-    hid_descriptor d = in_multi_axis({0x15, 0x80, 0x25, 0x7f, 0x75, 0x08, 0x95, 0x03, 0x19, 0x35, 0x29, 0x35, 0x19,
-                                      0x30, 0x29, 0x31, 0x81, 0x02});
+    /* X..X, then Ry..Rz. */
+    hid_descriptor d = in_multi_axis({0x15, 0x80, 0x25, 0x7f, 0x75, 0x08, 0x95, 0x03, 0x19, 0x30, 0x29, 0x30, 0x19,
+                                      0x34, 0x29, 0x35, 0x81, 0x02});
     ASSERT_EQ(d.field_count, 3u);
-    EXPECT_EQ(d.fields[0].first, DEVICE_EVENT_RZ);
-    EXPECT_EQ(d.fields[1].first, DEVICE_EVENT_X);
-    EXPECT_EQ(d.fields[2].first, DEVICE_EVENT_Y);
+    EXPECT_EQ(d.fields[0].first, DEVICE_EVENT_X);
+    EXPECT_EQ(d.fields[1].first, DEVICE_EVENT_RY);
+    EXPECT_EQ(d.fields[2].first, DEVICE_EVENT_RZ);
 }
 
 TEST(hid_descriptor, locals_do_not_outlive_their_main_item)
@@ -356,6 +356,16 @@ TEST(hid_descriptor, buttons_in_number_order_but_apart_are_separate_runs)
         EXPECT_EQ(d.fields[i].bit, bits[i]);
         EXPECT_EQ(d.fields[i].report_id, i < 3 ? 3 : 4);
     }
+}
+
+TEST(hid_descriptor, buttons_of_different_width_are_separate_runs)
+{
+    hid_descriptor d = in_multi_axis({0x05, 0x09, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x01, 0x09, 0x01, 0x81,
+                                      0x02, 0x75, 0x07, 0x81, 0x03, 0x75, 0x08, 0x09, 0x02, 0x81, 0x02});
+    ASSERT_EQ(d.field_count, 2u);
+    EXPECT_EQ(d.fields[0].size_bits, 1);
+    EXPECT_EQ(d.fields[1].size_bits, 8);
+    EXPECT_EQ(d.fields[1].bit, 8u);
 }
 
 TEST(hid_descriptor, button_usage_zero_is_no_button)

@@ -263,7 +263,8 @@ TEST(hid_recording_decode, plays_two_devices_and_skips_a_mouse)
              "D: 0\nE: 0.000000 7 01 0a 00 ec ff 5e 01\n"
              "D: 1\nE: 0.000010 2 01 05\nE: 0.000010 2 09 05\n"
              "D: 2\nE: 0.000020 13 01 01 00 02 00 03 00 04 00 05 00 06 00\nE: 0.000030 3 17 32 00\n"
-             "D: 0\nE: 0.000040 7 02 01 00 00 00 00 00\nE: 0.000050 3 03 02 00\nE: 0.000060 2 63 00\nE: 0.000070 1 01\n");
+             "D: 0\nE: 0.000040 7 02 01 00 00 00 00 00\nE: 0.000050 3 03 02 00\n"
+             "E: 0.000060 2 63 00\nE: 0.000070 1 01\n");
     ASSERT_TRUE(l.good) << l.error.line << " " << l.error.expected;
     hid_recording_decoded decoded;
     hid_recording_error error;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:   The report descriptors of two SpaceMice, byte for byte as the devices hold them, and copies of bytes that end
+ *         where their memory ends, so that reading one byte too far traps under AddressSanitizer.
+ * Is not: A recording (tests/golden/recordings); a fake device.
+ * Owner:  spacemouse_bytes_exact owns its memory.
+ * Source: Published dumps of 046d:c626 (217 bytes) and 256f:c62e (270 bytes).
+ */
 #ifndef GLAISE_SPACEMOUSE_SPACEMOUSE_BYTES_H
 #define GLAISE_SPACEMOUSE_SPACEMOUSE_BYTES_H
-
-/*
- * What    The report descriptors of two SpaceMice, byte for byte as the devices hold them, and copies of bytes that end
- *         where their memory ends, so that reading one byte too far traps under AddressSanitizer.
- * Owner   spacemouse_bytes_exact owns its memory.
- * Source  Published dumps of 046d:c626 (217 bytes) and 256f:c62e (270 bytes).
- */
 
 #include <cstdint>
 #include <cstdlib>

@@ -297,6 +297,21 @@ TEST(spacemouse_report, codes_beyond_the_table_are_ignored)
     expect_button(e[0], SPACEMOUSE_REPORT_BUTTONS_MAX - 1, true);
 }
 
+TEST(spacemouse_report, bits_beyond_the_table_are_ignored)
+{
+    /* 264 bits, then one code of 8 bits. */
+    one_device s({0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0x05, 0x09, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x96, 0x08, 0x01,
+                  0x19, 0x01, 0x2a, 0x08, 0x01, 0x81, 0x02, 0x25, 0x20, 0x75, 0x08, 0x95, 0x01, 0x19, 0x00, 0x29, 0x20,
+                  0x81, 0x00, 0xc0});
+    bytes report(34, 0x00);
+    report[32] = 0x01; /* button number 256 */
+    EXPECT_TRUE(s.report(report).empty());
+    report[33] = 0x20;
+    events e = s.report(report);
+    ASSERT_EQ(e.size(), 1u);
+    expect_button(e[0], 31, true);
+}
+
 TEST(spacemouse_report, the_battery_is_a_percentage)
 {
     one_device s(spacemouse_bytes_wireless);

@@ -38,9 +38,9 @@ struct marked {
 };
 
 /* Cubes of one of the two masks; also sees to it that no brick has two entries. */
-mesh_oracle_keys cubes_of(const stale *s, brick_mask stale_entry::*which)
+std::vector<key> cubes_of(const stale *s, brick_mask stale_entry::*which)
 {
-    mesh_oracle_keys cubes, bricks;
+    std::set<key, mesh_oracle_less> cubes, bricks;
     for (uint32_t n = 0; n < stale_count(s); n++) {
         const stale_entry *e = stale_at(s, n);
         EXPECT_TRUE(bricks.insert(e->at).second);
@@ -49,10 +49,10 @@ mesh_oracle_keys cubes_of(const stale *s, brick_mask stale_entry::*which)
             if (brick_mask_has(&(e->*which), c))
                 cubes.insert(key_add(key_of_brick(e->at), c >> 6, c >> 3 & 7, c & 7));
     }
-    return cubes;
+    return {cubes.begin(), cubes.end()};
 }
 
-bool same(const mesh_oracle_keys &a, const mesh_oracle_keys &b)
+bool same(const std::vector<key> &a, const std::vector<key> &b)
 {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), key_equal);
 }
@@ -60,7 +60,7 @@ bool same(const mesh_oracle_keys &a, const mesh_oracle_keys &b)
 void expect_right(marked *m)
 {
     ASSERT_EQ(stale_mark(&m->s, &m->d), STATUS_OK);
-    const mesh_oracle_keys examined = mesh_oracle_cubes(m->corners);
+    const std::vector<key> examined = mesh_oracle_cubes(m->corners);
     EXPECT_TRUE(same(cubes_of(&m->s, &stale_entry::examined), examined));
     EXPECT_TRUE(same(cubes_of(&m->s, &stale_entry::aged), mesh_oracle_cubes(mesh_oracle_with_six(m->corners))));
     EXPECT_EQ(stale_examined(&m->s), examined.size());

@@ -61,7 +61,7 @@ TEST_F(view_marker, tool_styles_change_pixels_only_where_the_tool_is)
     EXPECT_EQ(glass.changed(hidden, outside(inside)), 0);
     const int wire_pixels = wire.changed(hidden), glass_pixels = glass.changed(hidden);
     EXPECT_GT(wire_pixels, 200);
-    EXPECT_GT(glass_pixels, 2 * wire_pixels) << "glass fills, wire does not";
+    EXPECT_GT(glass_pixels, wire_pixels * 5 / 4) << "glass fills, wire does not";
     EXPECT_GT(wire.changed(glass), 200);
 }
 
@@ -170,7 +170,7 @@ TEST_F(view_marker, a_mirrored_tool_looks_like_its_image)
     s.tool_style = SNAPSHOT_TOOL_TRANSPARENT;
     const view_stage_picture p = draw(s);
     s.tool_world.axis[0][0] = -s.tool_world.axis[0][0];
-    EXPECT_LE(draw(s).changed(p), 8) << "a ball is its own mirror image, its near side stays near";
+    EXPECT_LE(draw(s).changed(p, 6), 8) << "a ball is its own mirror image, its near side stays near";
 }
 
 TEST_F(view_marker, a_flat_tool_is_not_drawn)

@@ -52,18 +52,18 @@ struct view_stage_picture {
                 most = std::max(most, apart(other, x, y));
         return most;
     }
-    /* Pixels that differ by more than one step, of those where `where` holds. */
-    int changed(const view_stage_picture &other, const std::function<bool(double, double)> &where) const
+    /* Pixels that differ by more than `steps`, of those where `where` holds. */
+    int changed(const view_stage_picture &other, const std::function<bool(double, double)> &where, int steps = 1) const
     {
         int count = 0;
         for (int y = 0; y < height; y++)
             for (int x = 0; x < width; x++)
-                count += apart(other, x, y) > 1 && where(x + 0.5, y + 0.5);
+                count += apart(other, x, y) > steps && where(x + 0.5, y + 0.5);
         return count;
     }
-    int changed(const view_stage_picture &other) const
+    int changed(const view_stage_picture &other, int steps = 1) const
     {
-        return changed(other, [](double, double) { return true; });
+        return changed(other, [](double, double) { return true; }, steps);
     }
 };
 

@@ -34,13 +34,11 @@ static void rows_read(const polygonizer *p, float at_least, uint16_t rows_out[PA
 {
     for (int di = 0; di < PATCH_SIDE; di++)
         for (int dj = 0; dj < PATCH_SIDE; dj++) {
-            const uint32_t *ids = &p->neighbours[brick_neighbour_index(di >> 3, dj >> 3, 0)];
+            const brick_page *const *page = &p->page[(di >> 3) * 4 + (dj >> 3) * 2];
             int slot = (di & 7) << 6 | (dj & 7) << 3;
-            unsigned bits = 0;
-            if (ids[0] != POOL_NONE)
-                bits = eight_bits(&clay_brick(p->of, ids[0])->page->potential[slot], at_least);
-            if (ids[1] != POOL_NONE)
-                bits |= (unsigned)(clay_brick(p->of, ids[1])->page->potential[slot] >= at_least) << 8;
+            unsigned bits = page[0] ? eight_bits(&page[0]->potential[slot], at_least) : 0;
+            if (page[1])
+                bits |= (unsigned)(page[1]->potential[slot] >= at_least) << 8;
             rows_out[di][dj] = (uint16_t)bits;
         }
 }
@@ -49,16 +47,14 @@ void polygonizer_look(polygonizer *p, const clay *c, key brick_at)
 {
     p->of = c;
     p->at = brick_at;
-    uint32_t id = clay_find(c, brick_at);
-    if (id != POOL_NONE) {
-        memcpy(p->neighbours, clay_brick(c, id)->neighbour, sizeof p->neighbours);
-    } else {
+    uint32_t self = clay_find(c, brick_at);
+    for (int n = 0; n < 8; n++) {
         /* Most empty bricks at the clay's border cross nothing: their cubes' corners are all that is searched for. */
-        p->neighbours[BRICK_SELF] = POOL_NONE;
-        for (int n = 1; n < 8; n++) {
-            int di = n >> 2, dj = n >> 1 & 1, dk = n & 1;
-            p->neighbours[brick_neighbour_index(di, dj, dk)] = clay_find(c, key_add(brick_at, di, dj, dk));
-        }
+        int di = n >> 2, dj = n >> 1 & 1, dk = n & 1;
+        uint32_t id = self != POOL_NONE ? clay_brick(c, self)->neighbour[brick_neighbour_index(di, dj, dk)]
+                      : n > 0           ? clay_find(c, key_add(brick_at, di, dj, dk))
+                                        : POOL_NONE;
+        p->page[n] = id == POOL_NONE ? NULL : clay_brick(c, id)->page;
     }
     rows_read(p, POTENTIAL_ISO, p->inside);
 }
@@ -99,8 +95,8 @@ static const float *apron_at(const polygonizer *p, int di, int dj, int dk)
 /* Of a stored corner, 0..8 an axis. */
 static uint32_t corner_rgba(const polygonizer *p, const int d[3])
 {
-    uint32_t id = p->neighbours[brick_neighbour_index(d[0] >> 3, d[1] >> 3, d[2] >> 3)];
-    return clay_brick(p->of, id)->page->rgba[(d[0] & 7) << 6 | (d[1] & 7) << 3 | (d[2] & 7)];
+    const brick_page *page = p->page[(d[0] >> 3) * 4 + (d[1] >> 3) * 2 + (d[2] >> 3)];
+    return page->rgba[(d[0] & 7) << 6 | (d[1] & 7) << 3 | (d[2] & 7)];
 }
 
 /* Twice the gradient at a corner would be the same direction: differences are left undivided. */
@@ -212,9 +208,9 @@ static void triangles_make(polygonizer *p, const case_table *t, const brick_mask
 
 void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing)
 {
-    if (p->neighbours[BRICK_SELF] == POOL_NONE)
-        clay_neighbours(p->of, p->at, p->neighbours);
-    apron_gather(p->of, p->neighbours, APRON_HI_MAX, p->potential, NULL);
+    uint32_t neighbours[BRICK_NEIGHBOURS];
+    clay_neighbours(p->of, p->at, neighbours);
+    apron_gather(p->of, neighbours, APRON_HI_MAX, p->potential, NULL);
     vertices_make(p);
     triangles_make(p, t, crossing);
 }

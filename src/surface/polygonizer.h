@@ -28,7 +28,7 @@ enum { POLYGONIZER_TRIANGLES_MAX = (int)BRICK_CORNERS * (int)CASE_TABLE_TRIANGLE
 typedef struct polygonizer {
     const clay *of;
     key at;
-    uint32_t neighbours[BRICK_NEIGHBOURS];   /* the seven upper ones and the brick; all 27 when it is stored */
+    const brick_page *page[8];               /* of the bricks 0..1 an axis, k fastest; NULL where none is stored */
     uint16_t inside[PATCH_SIDE][PATCH_SIDE]; /* [di][dj], bit dk: corners 0..8 at or over iso */
     float potential[APRON_CORNERS_MAX];      /* corners -1..9 an axis */
     uint16_t vertex_of[PATCH_EDGE_NAMES];    /* of cut edges only */

@@ -67,6 +67,8 @@ projection projection_make(const snapshot &s, int width, int height, const std::
     assert(width > 0 && height > 0);
     double nearest = s.camera_distance, farthest = s.camera_distance;
     for (const projection_ball &b : held) {
+        if (!std::isfinite(b.middle_eye.z) || !std::isfinite(b.radius))
+            continue;
         nearest = std::min(nearest, -b.middle_eye.z - b.radius);
         farthest = std::max(farthest, -b.middle_eye.z + b.radius);
     }

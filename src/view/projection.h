@@ -47,6 +47,7 @@ glm::dmat4 projection_of_frame(const frame &f);
 /* The ball round a box given by two corners in world space. */
 projection_ball projection_ball_of_box(const glm::dmat4 &eye_from_world, const glm::dvec3 &lo, const glm::dvec3 &hi);
 
+/* Balls that are not finite are not held. */
 projection projection_make(const snapshot &s, int width, int height, const std::vector<projection_ball> &held);
 
 /* Height in pixels of one millimetre, seen at a depth of `ahead` mm. */

@@ -19,12 +19,12 @@
 
 namespace {
 
-/* Stays up to the end of the program: Coin cannot be started twice. */
-void start_coin()
-{
-    if (!SoDB::isInitialized())
-        SoDB::init();
-}
+/* Coin is started once and finished once: it cannot be started again. */
+class coin : public testing::Test {
+protected:
+    static void SetUpTestSuite() { SoDB::init(); }
+    static void TearDownTestSuite() { SoDB::finish(); }
+};
 
 void add_corner(peer_judge_corners &seen, SoCallbackAction &action, const SoPrimitiveVertex &v)
 {
@@ -51,7 +51,6 @@ peer_judge_corners seen_by_coin(const std::string &path)
 {
     peer_judge_corners seen;
     seen.has_alpha = true;
-    start_coin();
     SoInput in;
     if (!in.openFile(path.c_str())) {
         ADD_FAILURE() << path << ": cannot be opened";
@@ -70,7 +69,7 @@ peer_judge_corners seen_by_coin(const std::string &path)
     return seen;
 }
 
-TEST(coin, sees_both_pieces)
+TEST_F(coin, sees_both_pieces)
 {
     for (const char *kind : {"blob", "torus"}) {
         const clay_piece piece(kind);
@@ -79,7 +78,7 @@ TEST(coin, sees_both_pieces)
     }
 }
 
-TEST(coin, hole_is_noticed)
+TEST_F(coin, hole_is_noticed)
 {
     const clay_piece piece("torus");
     const clay_piece_file file(piece, ".iv", 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: what was done can be undone and redone to the exact digest, as far as the ring reaches, across restarts; what a
- *       failing store refuses is refused whole; and at every moment the files alone lead to the sculpture as it is (H1).
+ *       failing store refuses is refused whole; and at every moment the files alone lead to the sculpture as it is.
  * Method: numbered strokes with all digests kept; after every step a copy of the files is opened beside; a store that
  *         fails at each of its calls in turn, before and after the work; files damaged under an open history. */
 #include "history/history.h"

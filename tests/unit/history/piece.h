@@ -43,7 +43,7 @@ struct piece_clay {
     piece_clay &operator=(const piece_clay &) = delete;
 };
 
-/* What a tool does: opens bricks, writes, closes, prunes. Only when every corner was written is the answer STATUS_OK. */
+/* What a tool does: opens bricks, writes, closes, prunes. STATUS_OK only when every corner was written. */
 inline status piece_write(clay *c, const piece_stroke &stroke)
 {
     std::map<std::tuple<int32_t, int32_t, int32_t>, std::vector<piece_corner>> bricks;

@@ -184,7 +184,8 @@ TEST(undo_file, step_can_be_reverted_by_the_caller)
 
 TEST(undo_file, clay_that_is_not_the_expected_side_is_left_alone)
 {
-    for (const piece_corner &spoil : piece_stroke{{{0, 0, 1}, 1.0f, 0x04030201}, {{0, 0, 1}, 1.25f, 5}, {{0, 0, 9}, 0, 0}}) {
+    const piece_stroke spoils = {{{0, 0, 1}, 1.0f, 0x04030201}, {{0, 0, 1}, 1.25f, 5}, {{0, 0, 9}, 0, 0}};
+    for (const piece_corner &spoil : spoils) {
         piece_clay p;
         recorded r;
         record(&p.c, two_bricks, &r);

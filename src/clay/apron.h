@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    A brick together with the layers round it, copied out of the neighbours into one dense block, so that stencils
- *          (smoothing, gradients, cubes) read plain memory across brick borders.
+ * What:    A brick together with the layers round it, copied out of the neighbours into one dense block, so that
+ *          stencils (smoothing, gradients, cubes) read plain memory across brick borders.
  * Is not:  A view: it is a copy, old values stay in it while the clay is written.
  * Shape:   corners APRON_LO..hi relative to the brick on each axis, n = hi - APRON_LO + 1 a side, k fastest:
  *          slot ((di+1)*n + (dj+1))*n + (dk+1). Smoothing wants hi = 8 (n = 10), the surface hi = 9 (n = 11).

@@ -21,7 +21,8 @@
 /* Patches: one per brick, and one per empty brick whose cubes reach into a stored one. */
 #define CAPACITY_PATCHES (2u * CAPACITY_BRICKS)
 
-/* Bricks one dab may cover: a tool of 32 steps needs about 1,300; this is a tool of 128 steps. 6 KiB of scratch each. */
+/* Bricks one dab may cover: a tool of 32 steps needs about 1,300; this is a tool of 128 steps. 6 KiB of scratch
+   each. */
 #define CAPACITY_DAB_BRICKS 65536u
 
 #endif

@@ -50,7 +50,8 @@ STATUS_CHECKED status clay_copy(clay *to, const clay *from);
 
 /* Potential at a corner, POTENTIAL_MIN when absent; *rgba_out (may be NULL) COLOUR_NONE when absent. */
 float clay_read(const clay *c, key corner, uint32_t *rgba_out);
-/* Clamps to POTENTIAL_MAX, removes at or under POTENTIAL_MIN (NaN counts as that), marks dirt, gives an emptied brick back. */
+/* Clamps to POTENTIAL_MAX, removes at or under POTENTIAL_MIN (NaN counts as that), marks dirt, gives an emptied brick
+   back. */
 STATUS_CHECKED status clay_write(clay *c, key corner, float potential, uint32_t rgba);
 
 /* --- bricks --- */
@@ -59,18 +60,20 @@ static inline uint32_t clay_find(const clay *c, key brick_at) { return avl_find(
 static inline brick *clay_brick(const clay *c, uint32_t id) { return (brick *)pool_at(&c->bricks, id); }
 static inline uint32_t clay_brick_count(const clay *c) { return c->bricks.count; }
 
-/* Can `fresh` new bricks be made, `touched` ones be recorded and marked? Ask before the first write of a dab. Takes every
-   touched brick for one that has neither image nor mark; clay_need counts those. */
+/* Can `fresh` new bricks be made, `touched` ones be recorded and marked? Ask before the first write of a dab. Takes
+   every touched brick for one that has neither image nor mark; clay_need counts those. */
 STATUS_CHECKED status clay_room(const clay *c, uint64_t fresh, uint64_t touched);
 
-/* What writing some bricks will take from the pools, to the last item: a stroke that stays where it is never runs out. */
+/* What writing some bricks will take from the pools, to the last item: a stroke that stays where it is never runs
+   out. */
 typedef struct clay_need {
     uint64_t bricks, images, marks;
 } clay_need;
 
 /* Adds one brick, each once: `opened` says whether it will be opened (made if absent) or only its dirt marked. */
 void clay_need_add(const clay *c, clay_need *need, key brick_at, bool opened);
-/* STATUS_POOL_FULL unless there is room; a mark is kept in reserve for every image, so that the change can be reverted. */
+/* STATUS_POOL_FULL unless there is room; a mark is kept in reserve for every image, so that the change can be
+   reverted. */
 STATUS_CHECKED status clay_need_fits(const clay *c, const clay_need *need);
 /* Ids of the 27 bricks round a brick key, POOL_NONE where absent; by links when the brick itself is stored. */
 void clay_neighbours(const clay *c, key brick_at, uint32_t ids_out[BRICK_NEIGHBOURS]);

@@ -27,8 +27,8 @@ static inline unsigned colour_channel(uint32_t rgba, int n) { return rgba >> (8 
 
 #define COLOUR_WHOLE 16777216.0f /* 2^24: parts of a channel's step that mixing can tell apart */
 
-/* Threshold in [0, 1) for rounding at corner `at` during dab number `dab`: a hash of those two and nothing else. A multiple
-   of 2^-24. */
+/* Threshold in [0, 1) for rounding at corner `at` during dab number `dab`: a hash of those two and nothing else. A
+   multiple of 2^-24. */
 static inline float colour_dither(key at, uint64_t dab)
 {
     uint32_t h = (uint32_t)at.i * 0x9E3779B1u ^ (uint32_t)at.j * 0x85EBCA77u ^ (uint32_t)at.k * 0xC2B2AE3Du;
@@ -42,8 +42,8 @@ static inline float colour_dither(key at, uint64_t dab)
 }
 
 /* from + weight (to - from) per channel, weight in [0, 1], rounded up with a chance equal to the fraction.
-   weight 0 and 1 are exact; a channel never leaves the span between its two ends. In whole numbers: as floats, 255 and a
-   threshold just under one would round up to 256 and carry into the next channel. */
+   weight 0 and 1 are exact; a channel never leaves the span between its two ends. In whole numbers: as floats, 255
+   and a threshold just under one would round up to 256 and carry into the next channel. */
 static inline uint32_t colour_mix(uint32_t from, uint32_t to, float weight, float dither)
 {
     const int64_t w = (int64_t)(weight * COLOUR_WHOLE), threshold = (int64_t)(dither * COLOUR_WHOLE);

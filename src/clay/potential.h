@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What:    The three numbers that define the field: its range and the value at which the surface lies.
- * Is not:  A unit of length or density; a potential has no dimension.
+ * Is not:  A density or a distance; how far a value reaches is the tool's affair.
+ * Units:   none: a potential has no dimension.
  * Source:  000 section 3.1 (minVal = 0, maxVal = 3). The papers print no iso; it has to be the middle of the range,
  *          or the stamp's "s = iso" and "def is 0 on the tool's surface" contradict each other.
  */

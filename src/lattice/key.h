@@ -68,8 +68,8 @@ static inline key key_of_brick(key b)
     return c;
 }
 
-/* May a brick with this key be stored? KEY_MIN..KEY_MAX are whole bricks, so all of its corners may or none. Asked of the
-   brick key itself: key_of_brick would overflow for keys that come from a damaged file. */
+/* May a brick with this key be stored? KEY_MIN..KEY_MAX are whole bricks, so all of its corners may or none. Asked of
+   the brick key itself: key_of_brick would overflow for keys that come from a damaged file. */
 static inline bool key_brick_in_range(key b)
 {
     const int32_t lo = KEY_MIN >> KEY_BRICK_SHIFT, hi = KEY_MAX >> KEY_BRICK_SHIFT;

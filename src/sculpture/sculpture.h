@@ -4,8 +4,8 @@
  *          ended here; undo, redo, patches, meshes, files and digests are asked for here.
  * Is not:  The person's state (station: what is moved, which tool is in the hand); drawing (view); files other programs
  *          read (exchange).
- * Shape:   world = step_mm * key: corner (i,j,k) lies at (i, j, k) * step_mm. A dab goes tool -> clay -> surface in one call,
- *          so patches are always those of the clay.
+ * Shape:   world = step_mm * key: corner (i,j,k) lies at (i, j, k) * step_mm. A dab goes tool -> clay -> surface in
+ *          one call, so patches are always those of the clay.
  * Units:   millimetres and seconds outside, lattice steps inside.
  * Owner:   the caller owns the struct (large: keep it on the heap); the byte store must outlive it.
  * Errors:  a refused dab leaves the clay as before the dab; a refused stroke (surface or history failed) as before the

@@ -4,7 +4,8 @@
  *          that needs them.
  * Is not:  As fast as the C library's (some tens of nanoseconds), nor meant for drawing.
  * Units:   radians.
- * Errors:  None for |angle| <= ANGLE_MAX (asserted); absolute error below 1e-15 (near zero crossings of far angles 1e-12).
+ * Errors:  None for |angle| <= ANGLE_MAX (asserted); absolute error below 1e-15 (near zero crossings of far angles
+ *          1e-12).
  * Source:  ours: Taylor polynomials on [-pi/4, pi/4] after removing quarter turns; only + - * / and floor.
  */
 #ifndef GLAISE_STATION_ANGLE_H

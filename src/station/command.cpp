@@ -35,7 +35,7 @@ std::vector<std::string_view> action_names()
     return names;
 }
 
-std::vector<command_form> forms_make()
+std::vector<command_form> device_forms()
 {
     return {
         {COMMAND_PUCK, "puck",
@@ -57,6 +57,12 @@ std::vector<command_form> forms_make()
          "how fast a fully deflected puck moves and turns, at a camera distance of 200 mm"},
         {COMMAND_FILTER, "filter", {number("DEAD_ZONE", 0, 0.5), number("CURVE", 0, 1)},
          "the puck's dead zone as a part of full deflection, and how cubic its response is"},
+    };
+}
+
+std::vector<command_form> tool_forms()
+{
+    return {
         {COMMAND_APPLY, "apply", {word("EDGE", DOWN_UP)}, "begins or ends a stroke, as the apply pedal does"},
         {COMMAND_UNDO, "undo", {}, "takes the last stroke back"},
         {COMMAND_REDO, "redo", {}, "brings an undone stroke again"},
@@ -90,6 +96,12 @@ std::vector<command_form> forms_make()
         {COMMAND_ORBIT, "orbit", {world("X"), world("Y"), world("Z"), axis("AX"), axis("AY"), axis("AZ"),
           number("DEGREES", -TURN_DEGREES, TURN_DEGREES), number("MS", 0, GLIDE_MS_MAX)},
          "carries the tool round the line through X Y Z along AX AY AZ within that time"},
+    };
+}
+
+std::vector<command_form> picture_forms()
+{
+    return {
         {COMMAND_VIEW, "view", {axis("AX"), axis("AY"), axis("AZ"), number("DEGREES", -TURN_DEGREES, TURN_DEGREES),
           number("DISTANCE", 0.1, 1e6)},
          "turns the scene and sets the eye's distance, mm"},
@@ -110,6 +122,15 @@ std::vector<command_form> forms_make()
         {COMMAND_WORKSPACE_SHOWN, "workspace-shown", {word("SHOWN", ON_OFF)}, "draws the workspace box or not"},
         {COMMAND_PICTURE, "picture", {{"FILE", COMMAND_NAME, 0, 0}}, "a picture of this moment, where pictures are wanted"},
     };
+}
+
+std::vector<command_form> forms_make()
+{
+    std::vector<command_form> all;
+    for (std::vector<command_form> (*make)() : {device_forms, tool_forms, picture_forms})
+        for (command_form &form : make())
+            all.push_back(std::move(form));
+    return all;
 }
 
 std::string_view word_take(std::string_view *rest)

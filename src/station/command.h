@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    A command: one thing a person, a device or a tape asks of the station at a time. Its text form is one line, the
- *          same on tapes, in settings and in bug reports.
+ * What:    A command: one thing a person, a device or a tape asks of the station at a time. Its text form is one
+ *          line, the same on tapes, in settings and in bug reports.
  * Is not:  Its execution (station.h); a file of commands (tape.h).
- * Shape:   a name and a fixed list of arguments; command_forms() lists every command with its arguments, ranges and what
- *          it does, and is the only such list: parser, writer, checks and the manual all read it.
+ * Shape:   a name and a fixed list of arguments; command_forms() lists every command with its arguments, ranges and
+ *          what it does, and is the only such list: parser, writer, checks and the manual all read it.
  * Units:   millimetres, seconds where a rate, degrees, milliseconds in text and microseconds in `time_us`.
  * Errors:  command_parse answers what was expected; nothing outside the stated ranges ever becomes a command.
  */

@@ -44,8 +44,8 @@ struct motion_filter {
 
 constexpr int MOTION_COUNTS_FULL = 350; /* a puck's logical maximum */
 
-/* Counts to speeds in -1..1, in the view's frame: shift then turn. The dead zone is radial over each triple and soft (it
-   starts again from zero); beyond full deflection is full deflection. */
+/* Counts to speeds in -1..1, in the view's frame: shift then turn. The dead zone is radial over each triple and soft
+   (it starts again from zero); beyond full deflection is full deflection. */
 struct motion_speed {
     motion_vector shift{}, turn{};
 };

@@ -60,7 +60,8 @@ struct snapshot {
     snapshot_tool_style tool_style = SNAPSHOT_TOOL_WIREFRAME;
     frame tool_world{};                     /* mm; an ellipsoid's axes are its semi-axes */
     std::array<float, 3> tool_colour{1, 1, 1};
-    const surface *tool_surface = nullptr;  /* freeform: its own iso-surface, lattice steps about tool_middle; else ellipsoid */
+    /* freeform: its own iso-surface, lattice steps about tool_middle; else ellipsoid */
+    const surface *tool_surface = nullptr;
     std::array<double, 3> tool_middle{};    /* freeform: key-space point of its clay that is the tool's origin */
     bool tool_working = false;              /* the pedal is down */
 

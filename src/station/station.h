@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The person's state: which tool is in the hand and where, what each device moves, which pedals are down, how the
- *          scene is looked at. It executes commands, integrates poses over real time and cuts strokes into dabs.
+ * What:    The person's state: which tool is in the hand and where, what each device moves, which pedals are down,
+ *          how the scene is looked at. It executes commands, integrates poses over real time and cuts strokes into
+ *          dabs.
  * Is not:  Drawing (view reads a snapshot); files, devices, clocks (wiring brings them); the clay (sculpture.h).
- * Shape:   time runs on a grid of STATION_STEP_US, absolute from 0. At each grid point, in this order: devices move what
- *          they move, glides carry the tool, a stroke under way may dab.
+ * Shape:   time runs on a grid of STATION_STEP_US, absolute from 0. At each grid point, in this order: devices move
+ *          what they move, glides carry the tool, a stroke under way may dab.
  *
  *              command     command        command
  *          ------v-----------v--------------v------> time
  *          |     |     |     |     |     |     |     grid: the only times at which anything moves
  *
  *          A command acts at its own time, so its consequence is seen at the next grid point; where frames fall between
- *          them cannot matter. A stroke dabs when the tool has moved by `spacing`, or every STATION_DAB_US; a tool faster
- *          than that is dabbed along its way.
+ *          them cannot matter. A stroke dabs when the tool has moved by `spacing`, or every STATION_DAB_US; a tool
+ *          faster than that is dabbed along its way.
  * Units:   microseconds; millimetres.
  * Owner:   the caller owns sculpture and station; the station ends a stroke under way when it is closed.
  * Errors:  a command that the clay refuses leaves everything as it was and says so in a message (station_message_take).

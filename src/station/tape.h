@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    A tape: commands with their times, as plain text that a person can write by hand, and that records and replays
- *          everything: tests, demonstrations, bug reports and settings are tapes.
+ * What:    A tape: commands with their times, as plain text that a person can write by hand, and that records and
+ *          replays everything: tests, demonstrations, bug reports and settings are tapes.
  * Is not:  The commands' meaning (command.h lists them all; `glaise --help` prints that list).
  * Shape:   line by line, UTF-8:
  *
@@ -12,8 +12,8 @@
  *              +40 apply down               40 ms after the line before
  *              +0 glide 30 10 0 800         at the same time as the line before
  *
- *          Times may have decimals down to a microsecond and never go back. Replaying ends when the last motion that was
- *          asked for has ended.
+ *          Times may have decimals down to a microsecond and never go back. Replaying ends when the last motion that
+ *          was asked for has ended.
  * Units:   ms in text, microseconds in memory.
  * Errors:  line number and what was expected; a tape is taken whole or not at all.
  */

@@ -66,10 +66,10 @@ static int edge_faces(int e)
 }
 
 /*
- * The face rule. Going round a face, every run of inside corners is left over one cut edge and was entered over another:
- * one segment joins the two and so cuts the run off. Two runs (an ambiguous face) are cut off one by one: the inside is
- * never joined across a face. Each cut edge is left over on one of its faces and entered over on the other, hence
- * `next` is a permutation of them.
+ * The face rule. Going round a face, every run of inside corners is left over one cut edge and was entered over
+ * another: one segment joins the two and so cuts the run off. Two runs (an ambiguous face) are cut off one by one: the
+ * inside is never joined across a face. Each cut edge is left over on one of its faces and entered over on the other,
+ * hence `next` is a permutation of them.
  */
 static void contours_trace(int index, int next_out[CASE_TABLE_EDGES])
 {

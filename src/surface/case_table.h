@@ -2,8 +2,8 @@
 /*
  * What:    The marching-cubes table: for each of the 256 sign patterns of a cube, the triangles between its cut edges.
  *          Generated, not typed: face contours are traced by one rule, then triangulated without face diagonals.
- * Is not:  The exact topology of the tri-linear field (ambiguous faces all follow the one rule: inside corners are never
- *          joined across a face).
+ * Is not:  The exact topology of the tri-linear field (ambiguous faces all follow the one rule: inside corners are
+ *          never joined across a face).
  * Shape:   corner c of a cube = dx + 2 dy + 4 dz, with (x,y,z) = (i,j,k). Bit c of an index is set when that corner is
  *          inside (>= iso). Edge e = axis * 4 + (which of the four parallel edges): see case_table.c's drawing.
  *          Triangles are counter-clockwise seen from outside (from the absent side).

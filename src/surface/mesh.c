@@ -132,8 +132,8 @@ void mesh_finish(mesh *m)
 
 /* --- measures --- */
 
-/* Edges by their lower vertex: those of vertex v are other[end[v - 1] .. end[v]), each the higher vertex times two, plus
-   one when the triangle runs from the higher to the lower. */
+/* Edges by their lower vertex: those of vertex v are other[end[v - 1] .. end[v]), each the higher vertex times two,
+   plus one when the triangle runs from the higher to the lower. */
 static void edges_sort(const mesh *m, uint64_t *end, uint64_t *other)
 {
     for (int fill = 0; fill < 2; fill++) {

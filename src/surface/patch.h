@@ -2,16 +2,16 @@
 /*
  * What:    The triangles of one brick's cubes, ready to be uploaded: vertices and indices of its own.
  * Is not:  The whole mesh (mesh.h welds patches); world space (positions are relative to the patch).
- * Shape:   cube (di,dj,dk) of the patch has its smallest corner there, so the cubes reach one corner into the next bricks:
- *          positions lie in [0, 8]. A cut edge is named by its smaller corner (0..8 an axis, k fastest, side 9) and its
- *          axis: edge = slot * 3 + axis. Each cut edge of the patch owns exactly one vertex, vertices ascend by edge; a
- *          cut edge on a border is in every patch that uses it, with the same bits (but for the patch's own place, 8 in
- *          one and 0 in the other), and `edge` says so: welding needs no tolerance.
+ * Shape:   cube (di,dj,dk) of the patch has its smallest corner there, so the cubes reach one corner into the next
+ *          bricks: positions lie in [0, 8]. A cut edge is named by its smaller corner (0..8 an axis, k fastest, side 9)
+ *          and its axis: edge = slot * 3 + axis. Each cut edge of the patch owns exactly one vertex, vertices ascend by
+ *          edge; a cut edge on a border is in every patch that uses it, with the same bits (but for the patch's own
+ *          place, 8 in one and 0 in the other), and `edge` says so: welding needs no tolerance.
  *          Triangles follow their cubes, k fastest.
  * Units:   lattice steps from the patch's smallest corner; normals have length 1 and point out of the clay.
  * Owner:   surface; pointers hold until the next surface_update.
- * Source:  000 sections 3.1 (Edge), 3.2 (interpolation). We differ: a cube's index is not kept, eight of them follow from
- *          four rows of inside bits faster than they are read back; which cubes cross is kept.
+ * Source:  000 sections 3.1 (Edge), 3.2 (interpolation). We differ: a cube's index is not kept, it follows from rows of
+ *          inside bits faster than it is read back; which cubes cross is kept.
  */
 #ifndef GLAISE_SURFACE_PATCH_H
 #define GLAISE_SURFACE_PATCH_H

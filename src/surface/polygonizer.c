@@ -3,6 +3,7 @@
 
 #include "clay/colour.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -25,7 +26,7 @@ static unsigned eight_bits(const float *row, float at_least)
         flag[n] = row[n] >= at_least;
     uint64_t bytes;
     memcpy(&bytes, flag, sizeof bytes);
-    /* Byte n holds 0 or 1: the product moves it to bit 56 + n, and no two terms meet. Both machines are little-endian. */
+    /* Byte n holds 0 or 1; the product moves it to bit 56 + n, no two terms meet. Our machines are little-endian. */
     return (unsigned)(bytes * 0x0102040810204080u >> 56);
 }
 
@@ -75,7 +76,7 @@ void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out)
 uint32_t polygonizer_stored_cubes(const polygonizer *p)
 {
     uint16_t stored[PATCH_SIDE][PATCH_SIDE];
-    rows_read(p, nextafterf(POTENTIAL_MIN, POTENTIAL_MAX), stored);
+    rows_read(p, FLT_TRUE_MIN, stored);
     uint32_t sum = 0;
     for (int di = 0; di < BRICK_EDGE; di++)
         for (int dj = 0; dj < BRICK_EDGE; dj++) {

@@ -8,8 +8,8 @@
  * Units:   lattice steps from the brick's smallest corner.
  * Owner:   the caller; 90 KiB, no memory besides, one per thread. It reads the clay between look and make.
  * Errors:  None.
- * Cost:    look and crossing: rows of eight, a fraction of a microsecond. make: an apron of potentials, then per cut edge
- *          and crossing cube.
+ * Cost:    look and crossing: rows of eight, a fraction of a microsecond. make: an apron of potentials, then per cut
+ *          edge and crossing cube.
  * Source:  000 section 3.2.
  */
 #ifndef GLAISE_SURFACE_POLYGONIZER_H

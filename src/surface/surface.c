@@ -239,8 +239,8 @@ static status brick_rebuild(surface *s, const clay *c, key at, polygonizer *p, s
     return patch_remake(s, p, at, POOL_NONE, &crossing, counts);
 }
 
-/* A brick that is not stored is reached by the lower cubes of up to seven stored ones: the first of those answers for it.
-   down, 0..7: how far `at` lies below the brick asked, an axis a bit. */
+/* The cubes of a brick that is not stored may reach up to seven stored ones: the first of those answers for it.
+   down, 0..7: how far that brick lies below b, an axis a bit. */
 static bool answers_for(const brick *b, int down)
 {
     int di = down >> 2, dj = down >> 1 & 1, dk = down & 1;

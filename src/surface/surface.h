@@ -15,7 +15,8 @@
  * Owner:   the caller owns the struct; surface owns patches and their arrays.
  * Errors:  STATUS_POOL_FULL / STATUS_NO_MEMORY: the surface is then partly updated and must be brought back by
  *          surface_update after the clay was put back (what it showed before fits), or by surface_rebuild.
- * Cost:    per brick with examined or aged cubes one apron (1,331 corners), then its crossing cubes: a few microseconds.
+ * Cost:    per brick with examined cubes, rows of inside bits; per patch remade, an apron (1,331 corners) and then its
+ *          crossing cubes: some microseconds.
  * Source:  000 section 3.2. We differ: a corner's change also ages the normals of edges at its six neighbours; those
  *          patches are remade too.
  */
@@ -53,7 +54,8 @@ void surface_finish(surface *s); /* a zeroed one is fine */
 /* Brings the surface up to date with the corners marked in c->dirty (which it reads and does not clear).
    counts_out may be NULL. */
 STATUS_CHECKED status surface_update(surface *s, const clay *c, surface_counts *counts_out);
-/* From nothing, all of the clay: what surface_update must equal, vertex for vertex. Every patch gets a new generation. */
+/* From nothing, all of the clay: what surface_update must equal, vertex for vertex. Every patch gets a new
+   generation. */
 STATUS_CHECKED status surface_rebuild(surface *s, const clay *c, surface_counts *counts_out);
 
 static inline uint32_t surface_slots(const surface *s) { return s->patches.fresh; }

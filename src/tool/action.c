@@ -66,7 +66,8 @@ static int apron_step(int n)
 
 static float one_two_one(float a, float b, float c) { return ((a + c) + (b + b)) * 0.25f; }
 
-/* Axis by axis in this order of addition, a constant stays that constant to the bit and nothing leaves the span of the 27. */
+/* Axis by axis in this order of addition, a constant stays that constant to the bit and nothing leaves the span of
+   the 27. */
 static float low_pass(const float *apron)
 {
     enum { J = ACTION_APRON_SIDE, I = J * J };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    What a tool does to a corner it reaches: the papers' actions, as functions of the corner, its neighbours and the
- *          tool's potential there.
+ * What:    What a tool does to a corner it reaches: the papers' actions, as functions of the corner, its neighbours
+ *          and the tool's potential there.
  * Is not:  The walk (walk.h) or the writing (tool.h).
  * Shape:   w = v_tool / 3 in (0, 1]; amount = rate x time of the dab.
  *              toothpaste    F + amount w               colour mixed by contribution
@@ -57,9 +57,9 @@ bool action_makes_clay(action a);
 /* Is there a contribution where the tool's potential is v_tool > 0? (dirtied, in the paper's count) */
 bool action_contributes(const action_setting *s, float v_tool);
 
-/* Acts on the eight corners of a row, those with a bit in `mask`. potential and rgba: in as they were, out as they become
-   (clay_brick_close clamps). Neighbour readers get the apron (side ACTION_APRON_SIDE, clay/apron.h) from the row's first
-   corner on; others pass NULL. */
+/* Acts on the eight corners of a row, those with a bit in `mask`. potential and rgba: in as they were, out as they
+   become (clay_brick_close clamps). Neighbour readers get the apron (side ACTION_APRON_SIDE, clay/apron.h) from the
+   row's first corner on; others pass NULL. */
 enum { ACTION_APRON_SIDE = 10 };
 void action_row(const action_setting *s, key first, unsigned mask, const float v_tool[8], const float *apron_potential,
                 const uint32_t *apron_rgba, float potential[8], uint32_t rgba[8]);

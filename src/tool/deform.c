@@ -26,7 +26,8 @@ status deform_init(deform *d, double s, double m, double r, double n, double kap
 {
     if (!settings_fit(s, m, r, n, kappa))
         return STATUS_BAD_PARAMETER;
-    kappa = fmin(kappa, fmin(3 / s, 3 * n / m));
+    const double most = 3 / s < 3 * n / m ? 3 / s : 3 * n / m;
+    kappa = kappa < most ? kappa : most;
     *d = (deform){.s = s, .m = m, .r = r, .n = n, .kappa = kappa};
     piece_set(d->piece[0], (s * kappa - 2) / (s * s * s), (3 - s * kappa) / (s * s), 0, -1);
     piece_set(d->piece[1], (kappa * m - 2 * n) / (m * m * m), (3 * n - 2 * kappa * m) / (m * m), kappa, 0);

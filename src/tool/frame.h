@@ -10,8 +10,8 @@
  *          origin ---- axis[0]   <=>   0 --- 1
  *
  * Units:   lattice steps.
- * Errors:  STATUS_BAD_POSE for NaN or infinity, an axis shorter than FRAME_AXIS_MIN or longer than FRAME_AXIS_MAX, or axes
- *          so nearly in one plane that the volume is under FRAME_FLAT of the product of their lengths.
+ * Errors:  STATUS_BAD_POSE for NaN or infinity, an axis shorter than FRAME_AXIS_MIN or longer than FRAME_AXIS_MAX, or
+ *          axes so nearly in one plane that the volume is under FRAME_FLAT of the product of their lengths.
  */
 #ifndef GLAISE_TOOL_FRAME_H
 #define GLAISE_TOOL_FRAME_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The freeform tool: any sculpted clay, duplicated, its field reconstructed tri-linearly as a tool's potential.
+ * What:    The freeform tool: any sculpted clay, duplicated, its field reconstructed tri-linearly as a tool's
+ *          potential.
  * Is not:  A link to the piece it came from: sculpting goes on without changing the tool.
  * Shape:   tool space is the duplicate's key space moved so that the middle of its box of stored corners is the origin
  *          (a frame's origin is then the tool's middle). Support: that box grown by one step.

@@ -113,8 +113,8 @@ static void act(const action_setting *set, const clay *c, tool_work *work, uint3
     work->needed = id != POOL_NONE || (action_makes_clay(set->kind) && page_has_clay(&work->page));
 }
 
-/* Marks come first, so that whatever was opened is closed and pruned without fail. Memory the pools have not asked the machine
-   for yet may still be refused in the middle: then what was written goes back. */
+/* Marks come first, so that whatever was opened is closed and pruned without fail. Memory the pools have not asked
+   the machine for yet may still be refused in the middle: then what was written goes back. */
 static status write_back(clay *c, tool_scratch *scratch, uint32_t *written)
 {
     *written = 0;

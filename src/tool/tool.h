@@ -3,12 +3,12 @@
  * What:    A tool, and one dab of it: the whole of paper 000 section 3.2 up to the surface. Corners under the tool are
  *          read, acted on and written back, brick by brick; the counts are the paper's.
  * Is not:  A stroke (station cuts those into dabs); the surface's update (surface.h); undo (history.h).
- * Shape:   tool_apply: walk -> which bricks -> room? -> new pages into scratch -> scratch into the clay. Nothing is written
- *          before everything that could be refused has been asked for; smoothing reads old values only.
+ * Shape:   tool_apply: walk -> which bricks -> room? -> new pages into scratch -> scratch into the clay. Nothing is
+ *          written before everything that could be refused has been asked for; smoothing reads old values only.
  * Units:   lattice steps; amounts in potential.
  * Owner:   the caller owns everything; scratch is kept between dabs to spare allocations.
- * Errors:  STATUS_BAD_POSE, STATUS_BAD_PARAMETER (amount negative, NaN or over TOOL_AMOUNT_MAX), STATUS_OUT_OF_RANGE, STATUS_TOO_LARGE,
- *          STATUS_POOL_FULL, STATUS_NO_MEMORY: the dab is refused whole, the clay is as it was.
+ * Errors:  STATUS_BAD_POSE, STATUS_BAD_PARAMETER (amount negative, NaN or over TOOL_AMOUNT_MAX), STATUS_OUT_OF_RANGE,
+ *          STATUS_TOO_LARGE, STATUS_POOL_FULL, STATUS_NO_MEMORY: the dab is refused whole, the clay is as it was.
  * Cost:    a box test per visited brick, an evaluation per computed corner, one tree entry per brick.
  * Source:  000 sections 3.2, 4, 6.
  */

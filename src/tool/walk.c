@@ -55,7 +55,7 @@ status walk_begin(walk *w, const frame *f, const shape *s)
 
 double walk_bound(const walk *w, int a)
 {
-    double size = fmax(fabs(w->lo[a]), fabs(w->hi[a]));
+    double size = fabs(w->lo[a]) > fabs(w->hi[a]) ? fabs(w->lo[a]) : fabs(w->hi[a]);
     for (int c = 0; c < 3; c++)
         size += 8 * fabs(w->row[a][c]);
     return 4 * FLT_EPSILON * size;

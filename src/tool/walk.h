@@ -3,8 +3,8 @@
  * What:    The walkthrough: every corner of the grid-aligned box round a tool, in key space and tool space at once, the
  *          tool-space point reached by adding displacement vectors instead of transforming.
  * Is not:  The evaluation of the tool (shape.h) or what is done to the corners (action.h).
- * Shape:   box: per axis k from floor(c_k - e_k) to floor(c_k + e_k), e_k the half extents of the oriented box. Walked by
- *          brick, rows of eight. Per brick one point is transformed; corner (di,dj,dk) of it lies at
+ * Shape:   box: per axis k from floor(c_k - e_k) to floor(c_k + e_k), e_k the half extents of the oriented box.
+ *          Walked by brick, rows of eight. Per brick one point is transformed; corner (di,dj,dk) of it lies at
  *              start + along[0][di] + along[1][dj] + along[2][dk]
  *          so the only error against the direct transform is the rounding of three float additions.
  * Units:   lattice steps outside, the shape's units inside.
@@ -35,11 +35,11 @@ typedef struct walk {
     double visited;           /* corners in the range */
 } walk;
 
-/* STATUS_BAD_POSE from frame_invert; STATUS_OUT_OF_RANGE when the whole box lies beyond the lattice; STATUS_TOO_LARGE when
-   it covers more than CAPACITY_DAB_BRICKS bricks. */
+/* STATUS_BAD_POSE from frame_invert; STATUS_OUT_OF_RANGE when the whole box lies beyond the lattice; STATUS_TOO_LARGE
+   when it covers more than CAPACITY_DAB_BRICKS bricks. */
 STATUS_CHECKED status walk_begin(walk *w, const frame *f, const shape *s);
-/* Largest |tool point by addition - tool point by direct transform| along a tool axis: four roundings of numbers no larger
-   than the support and one brick's displacement together. */
+/* Largest |tool point by addition - tool point by direct transform| along a tool axis: four roundings of numbers no
+   larger than the support and one brick's displacement together. */
 double walk_bound(const walk *w, int tool_axis);
 /* Can any corner of this brick lie inside the oriented box? Never false wrongly. */
 bool walk_touches(const walk *w, key brick_at);

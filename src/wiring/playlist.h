@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    A tape made ready for the station: read from its file, the recordings it names decoded and put in their places,
- *          the settings tape before it.
+ * What:    A tape made ready for the station: read from its file, the recordings it names decoded and put in their
+ *          places, the settings tape before it.
  * Is not:  The tape's grammar (station/tape.h) or the reports' (platform/spacemouse).
  * Shape:   commands in order of time; of equal times the tape's own order, then the recordings'.
  * Owner:   a value.
@@ -21,7 +21,8 @@ struct playlist {
 /* settings_path may be empty. */
 [[nodiscard]] bool playlist_load(const std::string &settings_path, const std::string &tape_path, playlist *out,
                                  std::string *text_out);
-/* The commands that a hid-recorder file amounts to: its first six-axis device becomes puck `device`, the next one after it. */
+/* The commands that a hid-recorder file amounts to: its first six-axis device becomes puck `device`, the next one
+   after it. */
 [[nodiscard]] bool playlist_decode(const std::string &recording, int device, int64_t start_us, std::vector<command> *out,
                                    std::string *text_out);
 /* A whole file; text_out says why not. */

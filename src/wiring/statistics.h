@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    What a replay did, dab by dab: the paper's counts, microseconds by stage, digests; as JSON and as a few lines
- *          for the person.
+ * What:    What a replay did, dab by dab: the paper's counts, microseconds by stage, digests; as JSON and as a few
+ *          lines for the person.
  * Is not:  A benchmark (tests/bench): one run's times on a busy machine are only that.
  * Shape:   JSON: {"glaise", "step_mm", totals..., "field_digest", "mesh_digest", "dab": [{...}, ...]}; digests are 16
  *          hexadecimal digits, times microseconds with decimals. `triangles` of a dab are those after it.

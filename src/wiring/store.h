@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Real files joined to the engine's ports: a folder as history's byte store, a file as a checkpoint's source, and
- *          an export that appears whole or not at all.
+ * What:    Real files joined to the engine's ports: a folder as history's byte store, a file as a checkpoint's
+ *          source, and an export that appears whole or not at all.
  * Is not:  The files themselves (platform/storage); formats (exchange).
  * Owner:   store_close gives a store back; sources and exports last for one call.
  * Errors:  a sentence with the path; the port's own calls answer STATUS_IO.

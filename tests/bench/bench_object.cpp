@@ -140,12 +140,12 @@ std::vector<bench_object_dab> bench_object_million()
     for (int n = 0; n < 500; n++) {
         double towards[3], centre[3], semi[3], turn[3];
         direction(n, 500, towards);
-        const double depth = 45 * std::cbrt(random.next(0, 1));
+        const double depth = 48 * std::cbrt(random.next(0, 1));
         const uint32_t rgba = colour_pack(static_cast<unsigned>(random.next(60, 255)),
                                           static_cast<unsigned>(random.next(60, 255)), 120, 255);
         for (int a = 0; a < 3; a++) {
             centre[a] = towards[a] * depth;
-            semi[a] = random.next(12, 22);
+            semi[a] = random.next(14, 24);
             turn[a] = random.next(-pi, pi);
         }
         dabs.push_back(dab_of(centre, semi, turn, ACTION_TOOTHPASTE, 1.5, rgba));

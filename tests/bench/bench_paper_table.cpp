@@ -3,9 +3,8 @@
  * of a million corners; then whatever --benchmark_filter chooses, by Google Benchmark (its options and formats hold).
  * Both engines do the same dabs and are compared before anything is timed: on a difference the exit code is 1.
  * Rates are medians over rounds in which the two take turns: on a busy machine trust the ratio. */
+#include "bench_piece.h"
 #include "bench_rig.h"
-
-#include "lattice/pool.h"
 
 #include <benchmark/benchmark.h>
 
@@ -80,14 +79,23 @@ void print_machine()
 
 /* --- the paper's object --- */
 
-std::unique_ptr<bench_rig> make_character()
+struct character {
+    bench_rig rig{20000, 200000};
+    bench_piece piece{20000};
+};
+
+std::unique_ptr<character> make_character()
 {
-    auto rig = std::make_unique<bench_rig>(20000, 200000);
+    auto made = std::make_unique<character>();
     for (const bench_object_dab &d : bench_object_character()) {
-        rig->ours(d);
-        rig->reference(d);
+        made->rig.ours(d);
+        made->rig.reference(d);
+        made->piece.stroke(d);
     }
-    return rig;
+    const std::string difference = made->rig.difference(false);
+    bench_rig_demand(difference.empty(), "the object: " + difference);
+    bench_rig_demand(made->piece.field_digest() == clay_digest(&made->rig.field_clay), "the strokes' object differs");
+    return made;
 }
 
 void print_character(const bench_rig &rig)
@@ -153,7 +161,7 @@ stages ours_staged(bench_rig &rig, const bench_object_dab &d)
 }
 
 struct row_result {
-    std::vector<double> ours_s, field_s, surface_s, recorded_s, reference_s, ratio; /* a dab, by round */
+    std::vector<double> ours_s, field_s, surface_s, stroke_s, reference_s, ratio; /* a dab, by round */
 };
 
 /* Seconds of one dab, over as many whole turns through `dabs` as fill the time. */
@@ -170,8 +178,9 @@ double mean_seconds(const std::vector<bench_object_dab> &dabs, double fill_s,
     return (now_s() - start) / static_cast<double>(done);
 }
 
-row_result row_measure(bench_rig &rig, const std::vector<bench_object_dab> &dabs)
+row_result row_measure(character &c, const std::vector<bench_object_dab> &dabs)
 {
+    bench_rig &rig = c.rig;
     row_result r;
     for (int n = 0; n < rounds; n++) {
         stages sum;
@@ -185,8 +194,7 @@ row_result row_measure(bench_rig &rig, const std::vector<bench_object_dab> &dabs
         });
         r.field_s.push_back(sum.field_s / static_cast<double>(count));
         r.surface_s.push_back(sum.surface_s / static_cast<double>(count));
-        r.recorded_s.push_back(
-            mean_seconds(dabs, ours_round_s, [&](const bench_object_dab &d) { rig.ours_recorded(d); }));
+        r.stroke_s.push_back(mean_seconds(dabs, ours_round_s, [&](const bench_object_dab &d) { c.piece.stroke(d); }));
         r.reference_s.push_back(
             mean_seconds(dabs, reference_round_s, [&](const bench_object_dab &d) { rig.reference(d); }));
         r.ratio.push_back(r.reference_s.back() / r.ours_s.back());
@@ -204,26 +212,27 @@ void print_row(const bench_object_pose &pose, const bench_rig_counts &c, const r
         std::printf(" %9s%c", pair.c_str(), here[n] == paper[n] ? ' ' : '!');
     }
     std::printf(" %6s %9.0f %6.1f %7.1f %9.0f %9.0f %6.1f\n", pose.frames_per_s, 1 / median(r.ours_s),
-                median(r.field_s) * 1e6, median(r.surface_s) * 1e6, 1 / median(r.recorded_s),
+                median(r.field_s) * 1e6, median(r.surface_s) * 1e6, 1 / median(r.stroke_s),
                 1 / median(r.reference_s), median(r.ratio));
 }
 
-void print_paper_table(bench_rig &rig)
+void print_paper_table(character &c)
 {
+    bench_rig &rig = c.rig;
     const std::vector<key> at = bench_object_sites(rig.field_clay, sites);
     std::printf("dabs on that object, toothpaste and soft eraser in turn, at %d places on its surface; medians of %d "
-                "rounds\ncounts: here/paper of a toothpaste dab; ours = field + surface (us each beside it); kept = the "
-                "same with every dab\nan undo step of its own (images of its bricks, nothing on disk); trees = one node "
-                "per corner; ratio = trees' time / ours\n\n",
+                "rounds\ncounts: here/paper of a toothpaste dab; ours = field + surface (us each beside it); "
+                "strokes = the same,\nevery dab an undo-file of its own, the disk left out; trees = one node per corner; "
+                "ratio = trees' time / ours\n\n",
                 sites, rounds);
     std::printf("%-12s %10s %10s %10s %10s %6s %9s %6s %7s %9s %9s %6s\n", "", "visited", "computed", "dirtied",
-                "cubes", "paper", "ours", "field", "surface", "kept", "trees", "ratio");
+                "cubes", "paper", "ours", "field", "surface", "strokes", "trees", "ratio");
     std::printf("%-12s %10s %10s %10s %10s %6s %9s %6s %7s %9s %9s %6s\n", "tool", "", "", "", "", "frm/s", "dabs/s",
                 "us", "us", "dabs/s", "dabs/s", "");
     for (const bench_object_pose &pose : bench_object_poses) {
         const std::vector<bench_object_dab> dabs = row_dabs(pose, at);
         const bench_rig_counts counts = row_check(rig, dabs, pose.name);
-        print_row(pose, counts, row_measure(rig, dabs));
+        print_row(pose, counts, row_measure(c, dabs));
         /* The rounds did not give both engines the same number of dabs: put the reference back on our field. */
         rig.load_reference();
     }
@@ -340,13 +349,11 @@ int main(int argc, char **argv)
     if (benchmark::ReportUnrecognizedArguments(argc, argv))
         return 2;
     print_machine();
-    auto rig = make_character();
-    const std::string difference = rig->difference(false);
-    bench_rig_demand(difference.empty(), "the object: " + difference);
-    print_character(*rig);
-    print_paper_table(*rig);
+    auto made = make_character();
+    print_character(made->rig);
+    print_paper_table(*made);
     print_million();
-    register_rows(*rig);
+    register_rows(made->rig);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     return 0;

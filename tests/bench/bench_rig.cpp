@@ -90,13 +90,6 @@ bench_rig_counts bench_rig::ours(const bench_object_dab &d)
     return counts;
 }
 
-void bench_rig::ours_recorded(const bench_object_dab &d)
-{
-    clay_change_begin(&field_clay);
-    ours(d);
-    clay_change_end(&field_clay);
-}
-
 bench_rig_counts bench_rig::reference(const bench_object_dab &d)
 {
     bench_rig_counts counts;

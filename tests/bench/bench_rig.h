@@ -32,8 +32,6 @@ public:
     void field(const bench_object_dab &d, tool_counts *counts_out);
     void surface_of_field(surface_counts *counts_out);
     bench_rig_counts ours(const bench_object_dab &d);
-    /* Our dab as an undo step of its own: images of its bricks are taken and given back. */
-    void ours_recorded(const bench_object_dab &d);
     bench_rig_counts reference(const bench_object_dab &d);
     /* The reference starts anew with our field. */
     void load_reference();

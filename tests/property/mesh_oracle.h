@@ -120,7 +120,8 @@ inline std::string mesh_oracle_vertex(const clay *c, const patch &p, const patch
     if (off > 1e-5 + 1e-5 / std::max(length, 1e-6) && std::fabs(length - 1e-6) > 5e-7)
         return "normal";
     for (int n = 0; n < 4; n++) {
-        const double a = colour_channel(upwards ? rgba_low : rgba_high, n), b = colour_channel(upwards ? rgba_high : rgba_low, n);
+        const double a = colour_channel(upwards ? rgba_low : rgba_high, n);
+        const double b = colour_channel(upwards ? rgba_high : rgba_low, n);
         const double expected = f_out > 0 ? a + (b - a) * t : a;
         if (std::fabs(colour_channel(v.rgba, n) - expected) > 0.5 + 1e-3)
             return "colour";
@@ -128,57 +129,60 @@ inline std::string mesh_oracle_vertex(const clay *c, const patch &p, const patch
     return "";
 }
 
-/* What is wrong with the surface, or nothing: which patches there are, their crossing cubes, each vertex, each triangle. */
+/* What is wrong with one patch, or nothing: its crossing cubes (ascending), vertices, triangles. */
+inline std::string mesh_oracle_patch(const clay *c, const case_table &cases, const patch &p,
+                                     const std::vector<key> &crossing)
+{
+    brick_mask mask{};
+    std::set<uint32_t> edges;
+    std::vector<uint32_t> corners; /* edges of all triangles' corners, in order */
+    for (const key &cube : crossing) {
+        brick_mask_set(&mask, key_slot(cube));
+        const int index = mesh_oracle_index(c, cube);
+        for (int n = 0; n < 3 * cases.triangles[index]; n++) {
+            int from, to;
+            case_table_edge(cases.edge[index][n], &from, &to);
+            const int i = (cube.i & 7) + (from & 1), j = (cube.j & 7) + (from >> 1 & 1), k = (cube.k & 7) + (from >> 2);
+            corners.push_back(static_cast<uint32_t>(((i * 9 + j) * 9 + k) * 3 + cases.edge[index][n] / 4));
+            edges.insert(corners.back());
+        }
+    }
+    if (std::memcmp(&mask, &p.crossing, sizeof mask) != 0)
+        return "crossing cubes";
+    if (edges.size() != p.vertex_count || corners.size() != 3 * size_t{p.triangle_count})
+        return "counts";
+    uint32_t v = 0;
+    for (const uint32_t e : edges) {
+        const patch_vertex &vertex = p.vertices[v++];
+        const std::string what = vertex.edge == e ? mesh_oracle_vertex(c, p, vertex) : "order of vertices";
+        if (!what.empty())
+            return what;
+    }
+    for (size_t n = 0; n < corners.size(); n++)
+        if (p.vertices[p.triangles[n / 3][n % 3]].edge != corners[n])
+            return "triangles";
+    return "";
+}
+
+/* What is wrong with the surface, or nothing. */
 inline std::string mesh_oracle_judge(const clay *c, const surface *s)
 {
-    std::map<key, std::vector<key>, mesh_oracle_less> cubes; /* crossing, by brick, ascending */
+    std::map<key, std::vector<key>, mesh_oracle_less> crossing; /* by brick */
     for (const key &cube : mesh_oracle_cubes(mesh_oracle_stored(c))) {
         const int index = mesh_oracle_index(c, cube);
         if (index != 0 && index != 255)
-            cubes[key_brick(cube)].push_back(cube);
+            crossing[key_brick(cube)].push_back(cube);
     }
     std::ostringstream wrong;
-    if (cubes.size() != s->patches.count)
-        wrong << "patches: " << s->patches.count << ", expected " << cubes.size();
-    for (const auto &[at, crossing] : cubes) {
-        const patch *p = surface_find(s, at);
-        if (!p || !wrong.str().empty())
-            return wrong.str() + " patch missing or extra";
-        const auto trouble = [&](const std::string &what) {
-            wrong << what << " in patch " << at.i << "," << at.j << "," << at.k;
-            return wrong.str();
-        };
-        brick_mask mask{};
-        std::set<uint32_t> edges;
-        std::vector<uint32_t> corners; /* edges of all triangles' corners, in order */
-        for (const key &cube : crossing) {
-            brick_mask_set(&mask, key_slot(cube));
-            const int index = mesh_oracle_index(c, cube);
-            const auto edge_name = [&](int e) {
-                int from, to;
-                case_table_edge(e, &from, &to);
-                const int i = (cube.i & 7) + (from & 1), j = (cube.j & 7) + (from >> 1 & 1), k = (cube.k & 7) + (from >> 2);
-                return static_cast<uint32_t>(((i * 9 + j) * 9 + k) * 3 + e / 4);
-            };
-            for (int n = 0; n < 3 * s->cases.triangles[index]; n++) {
-                corners.push_back(edge_name(s->cases.edge[index][n]));
-                edges.insert(corners.back());
-            }
+    if (crossing.size() != s->patches.count)
+        wrong << s->patches.count << " patches, expected " << crossing.size();
+    for (const auto &one : crossing) {
+        const patch *p = surface_find(s, one.first);
+        const std::string what = p ? mesh_oracle_patch(c, s->cases, *p, one.second) : "missing";
+        if (!what.empty()) {
+            wrong << what << " in patch " << one.first.i << "," << one.first.j << "," << one.first.k;
+            break;
         }
-        if (std::memcmp(&mask, &p->crossing, sizeof mask) != 0)
-            return trouble("crossing cubes");
-        if (edges.size() != p->vertex_count || corners.size() != 3 * size_t{p->triangle_count})
-            return trouble("counts");
-        uint32_t v = 0;
-        for (const uint32_t e : edges) {
-            const std::string what = p->vertices[v].edge == e ? mesh_oracle_vertex(c, *p, p->vertices[v]) : "order of vertices";
-            if (!what.empty())
-                return trouble(what);
-            v++;
-        }
-        for (size_t n = 0; n < corners.size(); n++)
-            if (p->vertices[p->triangles[n / 3][n % 3]].edge != corners[n])
-                return trouble("triangles");
     }
     return wrong.str();
 }

@@ -3,9 +3,9 @@
  *       nothing, bit for bit; it stays closed; its counts are the true ones; a viewer that follows generations misses
  *       nothing and uploads nothing twice.
  * Method: seeded random edits, straight through the clay's bricks: balls added, taken away and erased, noise, ties at
- *         iso, colours, at brick borders, at negative keys and at both ends of the lattice. After each one update against
- *         one rebuild, and counts against sets counted one by one. GLAISE_LONG in the environment: twenty times the
- *         steps. */
+ *         iso, colours, at brick borders, at negative keys and at both ends of the lattice. After each one update
+ *         against one rebuild, and counts against sets counted one by one. GLAISE_LONG in the environment: twenty times
+ *         the steps. */
 #include "surface/mesh.h"
 #include "tests/property/mesh_oracle.h"
 #include "tests/unit/surface/sample_clay.h"
@@ -20,7 +20,7 @@ constexpr int steps_short = 500, long_factor = 20, steps_between_meshes = 20, st
 /* The standard's generator is the same everywhere, its distributions are not. */
 struct dice {
     std::mt19937 engine;
-    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine()) % n; }
+    int32_t below(int32_t n) { return static_cast<int32_t>(engine() % static_cast<uint32_t>(n)); }
     double unit() { return static_cast<uint32_t>(engine()) / 4294967296.0; }
 };
 
@@ -53,16 +53,17 @@ bool same_content(const seen_patch &a, const seen_patch &b)
 /* One edit at a place; answers the corners it dirtied. */
 std::vector<key> edit_somewhere(clay *c, dice *d, key place)
 {
-    static const float tied[] = {0, 1, std::nextafter(1.5f, 0.0f), 1.5f, 1.5f, std::nextafter(1.5f, 2.0f), 2, 3, 1e-30f};
-    const key centre = key_add(place, static_cast<int32_t>(d->below(9)) - 4, static_cast<int32_t>(d->below(9)) - 4,
-                               static_cast<int32_t>(d->below(9)) - 4);
+    static const float tied[] = {0, 1, std::nextafter(1.5f, 0.0f), 1.5f, 1.5f, std::nextafter(1.5f, 2.0f),
+                                 2, 3, 1e-30f};
+    const int di = d->below(9) - 4, dj = d->below(9) - 4, dk = d->below(9) - 4;
+    const key centre = key_add(place, di, dj, dk);
     const double x = d->unit() - 0.5, y = d->unit() - 0.5, z = d->unit() - 0.5;
-    const int kind = static_cast<int>(d->below(9)), sparse = 1 + static_cast<int>(d->below(5));
-    const int reach = kind == 7 ? 0 : 1 + static_cast<int>(d->below(d->below(8) ? 5 : 10));
+    const int kind = d->below(9), sparse = 1 + d->below(5);
+    const int reach = kind == 7 ? 0 : 1 + d->below(d->below(8) ? 5 : 10);
     const float flat = tied[d->below(9)];
     const uint32_t colour = static_cast<uint32_t>(d->engine());
     return sample_clay_edit(c, sample_clay_box(centre, reach), [&](key at, float &v, uint32_t &rgba) {
-        const double far = sample_clay_distance(at, centre, x, y, z), fall = 1 - far * far / ((reach + 0.5) * (reach + 0.5));
+        const double far = sample_clay_distance(at, centre, x, y, z) / (reach + 0.5), fall = 1 - far * far;
         if (fall <= 0 && kind != 7)
             return false;
         const float weight = static_cast<float>(fall > 0 ? fall * fall : 0);
@@ -83,7 +84,7 @@ std::vector<key> edit_somewhere(clay *c, dice *d, key place)
             rgba = colour;
             return true;
         case 5: /* noise on some corners */
-            if (d->below(static_cast<uint32_t>(sparse)))
+            if (d->below(sparse))
                 return false;
             v = tied[d->below(9)];
             rgba = static_cast<uint32_t>(d->engine());
@@ -198,8 +199,10 @@ TEST(surface_limit, a_refused_update_can_be_taken_back)
         SCOPED_TRACE("step " + std::to_string(step));
         const uint64_t digest = surface_digest(&s.skin);
         clay_change_begin(&s.field);
-        for (uint32_t n = 0; n <= d.below(5); n++)
-            edit_somewhere(&s.field, &d, {static_cast<int32_t>(d.below(3)) * 12, 0, static_cast<int32_t>(d.below(2)) * -20});
+        for (int n = d.below(5); n >= 0; n--) {
+            const int32_t i = d.below(3) * 12, k = d.below(2) * -20;
+            edit_somewhere(&s.field, &d, {i, 0, k});
+        }
         const status r = surface_update(&s.skin, &s.field, nullptr);
         if (r == STATUS_OK) {
             clay_change_end(&s.field);

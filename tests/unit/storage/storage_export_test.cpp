@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: an export is there whole or not at all, and what stood under its name stays until then.
  * Method: a folder of its own, listed after every outcome; writes and syncs that fail on demand; a real full disk: a
- *         file system of 64 KiB in memory where this program may mount one, else the process's own limit of file size. */
+ *         file system of 64 KiB in memory where this program may mount one, and the process's limit of file size. */
 #include "platform/storage/storage_export.h"
 
 #include "tests/unit/storage/failing_system.h"
@@ -190,25 +190,19 @@ int fill(storage_export *e)
 
 TEST_F(storage_export_on_disk, full_disk_leaves_no_half_file)
 {
-    put_old();
-    ASSERT_EQ(fs::file_size(path), 3u);
-    const std::string mounted = folder + "/disk";
-    fs::create_directory(mounted);
-    if (mount("glaise", mounted.c_str(), "tmpfs", 0, "size=64k") == 0) {
-        const std::string on_it = mounted + "/piece.ply";
-        std::ofstream(on_it) << "old";
-        EXPECT_EQ(storage_export_begin(&e, on_it.c_str()), 0);
-        EXPECT_EQ(fill(&e), -ENOSPC);
-        EXPECT_EQ(storage_export_end(&e), -ENOSPC);
-        std::ifstream in(on_it, std::ios::binary);
-        EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "old");
-        EXPECT_EQ(std::distance(fs::directory_iterator(mounted), {}), 1);
-        in.close();
-        ASSERT_EQ(umount(mounted.c_str()), 0);
-    } else {
-        RecordProperty("mounted", "no");
-    }
-    fs::remove(mounted);
+    const std::string disk = folder + "/disk", on_it = disk + "/piece.ply";
+    fs::create_directory(disk);
+    if (mount("glaise", disk.c_str(), "tmpfs", 0, "size=64k") != 0)
+        GTEST_SKIP() << "may not mount here; the limit of file size stands in for it";
+    std::ofstream(on_it) << "old";
+    EXPECT_EQ(storage_export_begin(&e, on_it.c_str()), 0);
+    EXPECT_EQ(fill(&e), -ENOSPC);
+    EXPECT_EQ(storage_export_end(&e), -ENOSPC);
+    std::ifstream in(on_it, std::ios::binary);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "old");
+    in.close();
+    EXPECT_EQ(std::distance(fs::directory_iterator(disk), {}), 1);
+    ASSERT_EQ(umount(disk.c_str()), 0);
 }
 
 TEST_F(storage_export_on_disk, limit_of_file_size_leaves_no_half_file)

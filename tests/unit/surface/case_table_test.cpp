@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: the 256 cases form closed surfaces whatever cubes meet: vertices exactly on the cut edges, contours that depend on
- *       a face alone, no triangle side shared inside a face, the outside on the counter-clockwise side.
+/* Goal: the 256 cases form closed surfaces whatever cubes meet: vertices exactly on the cut edges, contours that depend
+ *       on a face alone, no triangle side shared inside a face, the outside on the counter-clockwise side.
  * Method: every case is taken apart into directed triangle sides; what must hold is said from the corners' signs. */
 #include "surface/case_table.h"
 
@@ -127,12 +127,13 @@ TEST(case_table, inside_corners_are_never_joined_across_a_face)
     int ambiguous = 0;
     for (int index = 0; index < 256; index++)
         for (const side &s : contours(index)) {
-            /* Corners of the two edges: on an ambiguous face, each contour turns round one corner: it must be inside. */
+            /* On an ambiguous face each contour turns round one corner, shared by its two edges. */
             const cube_edge a = edge_of(s.first), b = edge_of(s.second);
             for (const int corner : {a.from, a.to}) {
                 if (corner != b.from && corner != b.to)
                     continue;
-                const int far_a = a.from ^ a.to ^ corner, far_b = b.from ^ b.to ^ corner, opposite = far_a ^ far_b ^ corner;
+                const int far_a = a.from ^ a.to ^ corner, far_b = b.from ^ b.to ^ corner;
+                const int opposite = far_a ^ far_b ^ corner;
                 const bool in = index >> corner & 1, opposite_in = index >> opposite & 1;
                 if (in != opposite_in)
                     continue; /* one corner against three, nothing to choose */

@@ -67,7 +67,7 @@ TEST(polygonizer, a_vertex_divides_its_edge_by_the_potentials)
     ASSERT_NE(v, nullptr); /* 1.5 of the way from 3 to 1: three quarters along the edge */
     EXPECT_FLOAT_EQ(v->position[0], 2.75f);
     EXPECT_EQ(v->rgba, colour_pack(75, 150, 30, 191));
-    v = vertex_at(&s.skin, {0, 0, 0}, 1, 2, 2, 0); /* towards an absent corner: half way, and its colour takes no part */
+    v = vertex_at(&s.skin, {0, 0, 0}, 1, 2, 2, 0); /* towards an absent corner: half way, without a colour of its own */
     ASSERT_NE(v, nullptr);
     EXPECT_FLOAT_EQ(v->position[0], 1.5f);
     EXPECT_EQ(v->rgba, colour_pack(0, 0, 0, 0));

@@ -41,15 +41,17 @@ struct sample_clay {
 
 inline box sample_clay_box(key centre, int reach)
 {
-    const auto low = [reach](int32_t c) { return static_cast<int32_t>(std::max<int64_t>(int64_t{c} - reach, KEY_MIN)); };
-    const auto high = [reach](int32_t c) { return static_cast<int32_t>(std::min<int64_t>(int64_t{c} + reach, KEY_MAX)); };
+    const auto keep = [](int64_t c) { return static_cast<int32_t>(std::clamp<int64_t>(c, KEY_MIN, KEY_MAX)); };
+    const auto low = [=](int32_t c) { return keep(int64_t{c} - reach); };
+    const auto high = [=](int32_t c) { return keep(int64_t{c} + reach); };
     return {{low(centre.i), low(centre.j), low(centre.k)}, {high(centre.i), high(centre.j), high(centre.k)}};
 }
 
 /* Distance of a corner from a point near it, exact far from the origin too. */
 inline double sample_clay_distance(key corner, key base, double x, double y, double z)
 {
-    const double dx = double(corner.i) - base.i - x, dy = double(corner.j) - base.j - y, dz = double(corner.k) - base.k - z;
+    const double dx = double(corner.i) - base.i - x, dy = double(corner.j) - base.j - y;
+    const double dz = double(corner.k) - base.k - z;
     return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 

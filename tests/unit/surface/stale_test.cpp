@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: every cube that shares a dirtied corner is examined once, every cube that touches an aged gradient is aged, none
- *       besides, across brick borders and at negative keys.
- * Method: masks against sets of cubes counted one by one (mesh_oracle), for single corners at every place of a brick and
- *         for random dirt. */
+/* Goal: every cube that shares a dirtied corner is examined once, every cube that touches an aged gradient is aged,
+ *       none besides, across brick borders and at negative keys.
+ * Method: masks against sets of cubes counted one by one (mesh_oracle), for single corners at every place of a brick
+ *         and for random dirt. */
 #include "surface/stale.h"
 
 #include "tests/property/mesh_oracle.h"
@@ -94,7 +94,9 @@ TEST(stale, random_dirt_is_marked_exactly)
         marked m;
         const int reach = 3 + round % 12;
         for (int n = 0; n < 5 << round % 8; n++) {
-            const auto one = [&] { return static_cast<int32_t>(random() % (2 * reach + 1)) - reach + (round % 3 - 1) * 16; };
+            const auto one = [&] {
+                return static_cast<int32_t>(random() % (2 * reach + 1)) - reach + (round % 3 - 1) * 16;
+            };
             const int32_t i = one(), j = one(), k = one();
             m.add({i, j, k});
         }

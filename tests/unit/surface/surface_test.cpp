@@ -72,7 +72,8 @@ TEST(surface, the_papers_spheres_treat_as_many_cubes_as_its_table_says)
     for (const auto &[squared, corners, cubes] : {std::tuple{8, 93u, 184u}, std::tuple{38, 1021u, 1424u}})
         for (const key centre : {key{0, 0, 0}, key{-12, 5, 1003}}) {
             sample_clay s;
-            const auto dirtied = sample_clay_edit(&s.field, sample_clay_box(centre, 7), [&](key c, float &v, uint32_t &) {
+            const box where = sample_clay_box(centre, 7);
+            const auto dirtied = sample_clay_edit(&s.field, where, [&](key c, float &v, uint32_t &) {
                 const double d = sample_clay_distance(c, centre, 0, 0, 0);
                 v = 2;
                 return std::lround(d * d) <= squared;
@@ -184,12 +185,13 @@ TEST(surface, the_ends_of_the_lattice_close_too)
     }
 }
 
-/* `in` is inside, `out` its outside neighbour along `axis`; `beside` gives the gradient a second direction; `dirtied` lies
- * one step beyond `out`, in no cube of the cut edge. */
+/* `in` is inside, `out` its outside neighbour along `axis`; a weak corner beside `out` gives the gradient a second
+ * direction; the dirtied one lies one step beyond `out`, in no cube of the cut edge. */
 void expect_aged(key in, key out, int axis)
 {
     sample_clay s;
-    const key low = key_compare(in, out) < 0 ? in : out, beyond = mesh_oracle_step(out, axis, key_compare(in, out) < 0 ? 1 : -1);
+    const bool upwards = key_compare(in, out) < 0;
+    const key low = upwards ? in : out, beyond = mesh_oracle_step(out, axis, upwards ? 1 : -1);
     sample_clay_put(&s.field, in, 3.0f);
     sample_clay_put(&s.field, mesh_oracle_step(out, (axis + 1) % 3, 1), 1.0f);
     sample_clay_update(&s);

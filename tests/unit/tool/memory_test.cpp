@@ -75,7 +75,7 @@ outcome dab_with(size_t bytes, action kind, bool recording)
     const plain_clay before = plain_clay_of(&b.c);
     const uint64_t digest = clay_digest(&b.c);
     const tool t = {ellipsoid_shape(&b.ball), kind, 5, deform_default()};
-    const tool_dab d = {{{3, 2, 1}, {{40, 0, 0}, {0, 40, 0}, {0, 0, 40}}}, 1, 0};
+    const tool_dab d = {{{3, 2, 1}, {{20, 0, 0}, {0, 20, 0}, {0, 0, 20}}}, 1, 0};
     tool_counts counts;
     limit_memory(bytes);
     const status s = tool_apply(&t, &d, &b.c, &b.scratch, &counts);
@@ -126,7 +126,7 @@ template <typename work_type> outcome in_child(work_type work)
 template <typename work_type> void expect_whole_or_nothing(work_type work, int refusals_min)
 {
     int refused = 0;
-    for (size_t bytes = 0; bytes < (64u << 20); bytes += 96u << 10) {
+    for (size_t bytes = 0; bytes < (64u << 20); bytes += 64u << 10) {
         const outcome o = in_child([&] { return work(bytes); });
         ASSERT_NE(o, UNUSABLE) << bytes;
         ASSERT_NE(o, BROKEN) << bytes;

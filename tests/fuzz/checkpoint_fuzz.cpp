@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Goal    No bytes make the reader of sculpture files read outside them, allocate more than they could hold, or change
+ *         the clay without saying STATUS_OK; and what it accepts is a field whose file is those bytes and no others.
+ * Method  The first byte chooses: the rest are a file; a file whose checksums are put right; or corners to write into
+ *         clay, whose file is then changed in one place, and its checksums perhaps put right.
+ */
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "clay/digest.h"
+#include "history/byte_order.h"
+#include "history/checkpoint.h"
+
+namespace {
+
+enum { BRICKS = 32, HEADER = CHECKPOINT_HEADER_BYTES, CORNER_PROGRAM_BYTES = 6 };
+
+using byte_string = std::vector<uint8_t>;
+
+void require(bool truth)
+{
+    if (!truth) {
+        std::abort();
+    }
+}
+
+status keep(void *self, const void *bytes, size_t n)
+{
+    byte_string &out = *static_cast<byte_string *>(self);
+    const uint8_t *b = static_cast<const uint8_t *>(bytes);
+    out.insert(out.end(), b, b + n);
+    return STATUS_OK;
+}
+
+/* Gives an exact-size copy, so that reading beyond what was asked for traps. */
+status give(void *self, uint64_t offset, void *bytes, size_t n, size_t *got)
+{
+    const byte_string &in = *static_cast<const byte_string *>(self);
+    *got = offset < in.size() ? std::min(n, in.size() - static_cast<size_t>(offset)) : 0;
+    if (*got > 0)
+        std::memcpy(bytes, in.data() + offset, *got);
+    return STATUS_OK;
+}
+
+void put_checksums_right(byte_string &b)
+{
+    if (b.size() < HEADER)
+        return;
+    byte_order_put_u64(&b[HEADER - 8], digest_bytes(b.data(), HEADER - 8, 0));
+    for (size_t at = HEADER; at + 88 <= b.size();) {
+        const uint64_t vouched = 80 + uint64_t{8} * byte_order_get_u32(&b[at + 12]);
+        if (vouched + 8 > b.size() - at)
+            return;
+        byte_order_put_u64(&b[at + vouched], digest_bytes(&b[at], vouched, 0));
+        at += vouched + 8;
+    }
+}
+
+byte_string file_of(const clay &c, const checkpoint_facts &facts)
+{
+    byte_string out;
+    require(checkpoint_write(&c, &facts, keep, &out) == STATUS_OK);
+    return out;
+}
+
+/* Six bytes a corner: place, potential, colour. */
+void write_corners(clay &c, const uint8_t *bytes, size_t size)
+{
+    for (; size >= CORNER_PROGRAM_BYTES; bytes += CORNER_PROGRAM_BYTES, size -= CORNER_PROGRAM_BYTES) {
+        const key at = {static_cast<int8_t>(bytes[0]), static_cast<int8_t>(bytes[1]), static_cast<int8_t>(bytes[2])};
+        const float potential = static_cast<float>(bytes[3]) / 80;
+        const status s = clay_write(&c, at, potential, static_cast<uint32_t>(bytes[4] << 8 | bytes[5]));
+        require(s == STATUS_OK || s == STATUS_POOL_FULL);
+    }
+}
+
+void read_file(byte_string file)
+{
+    clay c;
+    checkpoint_facts facts;
+    checkpoint_trouble trouble;
+    require(clay_init(&c, BRICKS) == STATUS_OK);
+    require(clay_write(&c, {3, 4, 5}, 1, 7) == STATUS_OK);
+    const uint64_t digest = clay_digest(&c);
+    const status s = checkpoint_read(&c, &facts, give, &file, &trouble);
+    if (s == STATUS_OK) {
+        require(clay_is_valid(&c) && clay_digest(&c) == facts.digest && clay_brick_count(&c) == facts.bricks);
+        require(file_of(c, facts) == file);
+    } else {
+        require(clay_digest(&c) == digest && trouble.offset <= file.size() && trouble.expected[0] != '\0');
+    }
+    clay_finish(&c);
+}
+
+void make_and_spoil(const uint8_t *bytes, size_t size)
+{
+    if (size < 4)
+        return;
+    clay c;
+    require(clay_init(&c, BRICKS) == STATUS_OK);
+    write_corners(c, bytes + 4, size - 4);
+    const checkpoint_facts facts = {.step_mm = 1, .sequence = bytes[0], .dab = 2, .bricks = 0, .digest = 0};
+    byte_string file = file_of(c, facts);
+    clay_finish(&c);
+    read_file(file);
+    file[(bytes[1] << 8 | bytes[2]) % file.size()] ^= bytes[3];
+    if (bytes[0] & 1)
+        put_checksums_right(file);
+    read_file(file);
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    if (size < 1)
+        return 0;
+    byte_string file(bytes + 1, bytes + size);
+    switch (bytes[0] % 3) {
+    case 0: read_file(file); break;
+    case 1:
+        put_checksums_right(file);
+        read_file(file);
+        break;
+    default: make_and_spoil(bytes + 1, size - 1); break;
+    }
+    return 0;
+}

@@ -78,17 +78,21 @@ void sculpture_stroke_begin(sculpture *s)
     s->in_stroke = true;
 }
 
-/* The clay goes back to before the stroke, and the surface with it: what it showed then fits. */
-static void stroke_revert(sculpture *s)
+/* The clay was put back to what the surface showed before: that fits again. */
+static void surface_put_back(sculpture *s)
 {
-    surface_counts counts;
-    clay_change_revert(&s->clay);
-    status outcome = surface_update(&s->surface, &s->clay, &counts);
+    status outcome = surface_update(&s->surface, &s->clay, NULL);
     if (outcome != STATUS_OK)
-        outcome = surface_rebuild(&s->surface, &s->clay, &counts);
+        outcome = surface_rebuild(&s->surface, &s->clay, NULL);
     assert(outcome == STATUS_OK);
     (void)outcome;
     dirt_clear(&s->clay.dirty);
+}
+
+static void stroke_revert(sculpture *s)
+{
+    clay_change_revert(&s->clay);
+    surface_put_back(s);
     s->in_stroke = false;
 }
 
@@ -143,20 +147,30 @@ status sculpture_stroke_end(sculpture *s)
     return STATUS_OK;
 }
 
-static status step_through(sculpture *s, status (*step)(history *, clay *))
+typedef status (*history_step)(history *, clay *);
+
+static status step_through(sculpture *s, history_step step, history_step back)
 {
     assert(!s->in_stroke);
     if (!s->has_history)
         return STATUS_HISTORY_ENDS;
-    status outcome = step(&s->history, &s->clay);
-    if (outcome != STATUS_OK)
-        return outcome;
     surface_counts counts;
-    return sculpture_apply_surface(s, &counts);
+    status outcome = step(&s->history, &s->clay);
+    if (outcome != STATUS_OK) {
+        surface_put_back(s); /* a step refused half-way leaves marks */
+        return outcome;
+    }
+    outcome = sculpture_apply_surface(s, &counts);
+    if (outcome != STATUS_OK) {
+        status undone = back(&s->history, &s->clay);
+        (void)undone; /* refused as well: the clay stays where it stepped to, and so must the surface */
+        surface_put_back(s);
+    }
+    return outcome;
 }
 
-status sculpture_undo(sculpture *s) { return step_through(s, history_undo); }
-status sculpture_redo(sculpture *s) { return step_through(s, history_redo); }
+status sculpture_undo(sculpture *s) { return step_through(s, history_undo, history_redo); }
+status sculpture_redo(sculpture *s) { return step_through(s, history_redo, history_undo); }
 
 /* --- the piece as a whole --- */
 

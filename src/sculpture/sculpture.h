@@ -9,7 +9,8 @@
  * Units:   millimetres and seconds outside, lattice steps inside.
  * Owner:   the caller owns the struct (large: keep it on the heap); the byte store must outlive it.
  * Errors:  a refused dab leaves the clay as before the dab; a refused stroke (surface or history failed) as before the
- *          stroke, and the stroke is over. The status says why.
+ *          stroke, and the stroke is over (in_stroke is false). A refused undo or redo leaves everything. The status
+ *          says why.
  * Cost:    see tool.h, surface.h, history.h; sculpture adds nothing per corner.
  * Source:  000 sections 3 and 4.
  */

@@ -8,7 +8,7 @@
 #ifndef GLAISE_WIRING_SCRATCH_STORE_H
 #define GLAISE_WIRING_SCRATCH_STORE_H
 
-#include "sculpture/sculpture.h"
+#include "history/byte_store.h"
 
 #include <map>
 #include <string>

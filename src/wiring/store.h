@@ -9,7 +9,8 @@
 #ifndef GLAISE_WIRING_STORE_H
 #define GLAISE_WIRING_STORE_H
 
-#include "sculpture/sculpture.h"
+#include "exchange/exchange.h"
+#include "history/byte_store.h"
 
 #include <functional>
 #include <string>

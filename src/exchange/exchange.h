@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Files in and out by the ending of their name: the native sculpture file both ways, meshes out; and what `glaise
- *          info` says about a native file.
+ * What:    Files in and out by the ending of their name: the native sculpture file both ways, meshes out; and what
+ *          `glaise info` says about a native file.
  * Is not:  The formats (stl.h, ply.h, obj.h, inventor.h; the native one is history/checkpoint.h); pictures (picture.h);
  *          the opening, syncing and renaming of a file (platform/storage, joined in wiring).
  * Shape:   ending    holds                                            read back here
@@ -13,8 +13,8 @@
  *          Upper and lower case are alike. The name before the ending becomes the piece's name inside the file.
  * Units:   millimetres in files.
  * Owner:   nothing is kept.
- * Errors:  an exchange_outcome: the status, and a text for the person that is empty after STATUS_OK. Where reading stops,
- *          the text is "offset N: expected ..."; the caller, who knows it, puts the file's name before it.
+ * Errors:  an exchange_outcome: the status, and a text for the person that is empty after STATUS_OK. Where reading
+ *          stops, the text is "offset N: expected ..."; the caller, who knows it, puts the file's name before it.
  *          An unknown ending, and a mesh of an empty sculpture, are STATUS_BAD_PARAMETER before the first byte. The
  *          native file of an empty sculpture is written: it holds a step, and can be sculpted on.
  * Cost:    exchange_write waits for the sink. The frame path takes a mesh (mesh_init) and has exchange_write_mesh run

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Bytes on their way out: numbers and text gathered into blocks and handed to a sink, in order. The first failure
- *          of the sink sticks, so a writer looks at the answer once, at the end.
+ * What:    Bytes on their way out: numbers and text gathered into blocks and handed to a sink, in order. The first
+ *          failure of the sink sticks, so a writer looks at the answer once, at the end.
  * Is not:  A file: whoever owns the sink opens, syncs and renames (platform/storage, joined in wiring).
  * Shape:   the sink is history/checkpoint.h's, so that meshes, pictures and the native file leave by the same door.
  *          Binary numbers are little-endian on every machine; decimals have a point in every locale.

@@ -5,8 +5,8 @@
  * Shape:   8 bits a channel, RGB or RGBA (straight alpha), with an sRGB chunk: the bytes are display values. No time
  *          and no text chunks: same pixels, same bytes. Rows may lie bottom first, as OpenGL hands them over.
  * Owner:   the pixels stay the caller's.
- * Errors:  STATUS_BAD_PARAMETER for a side of 0 or above PICTURE_SIDE_MAX or channels other than 3 and 4; STATUS_NO_MEMORY;
- *          the sink's. No byte leaves before the parameters are found good.
+ * Errors:  STATUS_BAD_PARAMETER for a side of 0 or above PICTURE_SIDE_MAX or channels other than 3 and 4;
+ *          STATUS_NO_MEMORY; the sink's. No byte leaves before the parameters are found good.
  * Cost:    zlib's: about 20 ms for a million pixels of a rendered scene.
  * Source:  000 section 2 ("save a screen snapshot").
  */

@@ -2,8 +2,9 @@
 /*
  * What:    Binary little-endian PLY: the welded surface with a normal and a colour at every vertex.
  * Is not:  ASCII PLY.
- * Shape:   text header, then per vertex  float x y z nx ny nz, uchar red green blue alpha  (28 bytes), then per triangle
- *          uchar 3, int a b c  (13 bytes), counter-clockwise seen from outside. Vertices keep the mesh's order.
+ * Shape:   text header, then per vertex  float x y z nx ny nz, uchar red green blue alpha  (28 bytes), then per
+ *          triangle  uchar 3, int a b c  (13 bytes), counter-clockwise seen from outside. Vertices keep the mesh's
+ *          order.
  * Units:   millimetres (said in a comment line).
  * Errors:  mesh_file.h's, and the sink's.
  */

@@ -2,8 +2,8 @@
 /*
  * What:    Binary STL: the surface as a soup of facets, for printers and slicers.
  * Is not:  Able to hold colours (ply.h, obj.h, inventor.h); ASCII STL.
- * Shape:   80 bytes of header, uint32 count, then per facet 12 floats (normal, three corners counter-clockwise seen from
- *          outside) and two zero bytes: 84 + 50 count bytes. The header never begins with "solid", by which some
+ * Shape:   80 bytes of header, uint32 count, then per facet 12 floats (normal, three corners counter-clockwise seen
+ *          from outside) and two zero bytes: 84 + 50 count bytes. The header never begins with "solid", by which some
  *          readers tell ASCII.
  *          Count is the mesh's triangle count, always: a facet whose corners round to equal positions stays, or its
  *          neighbours would lose their partner. The normal is that of the corners as written, so that a

@@ -9,9 +9,11 @@ status byte_buffer_reserve(byte_buffer *b, size_t room)
 {
     if (room <= b->room)
         return STATUS_OK;
+    if (room > PTRDIFF_MAX) /* no object is larger */
+        return STATUS_NO_MEMORY;
     size_t grown = b->room < ROOM_FIRST_BYTES ? ROOM_FIRST_BYTES : b->room;
     while (grown < room)
-        grown = grown > SIZE_MAX / 2 ? room : grown * 2;
+        grown = grown > PTRDIFF_MAX / 2 ? room : grown * 2;
     uint8_t *bytes = (uint8_t *)realloc(b->bytes, grown);
     if (!bytes)
         return STATUS_NO_MEMORY;

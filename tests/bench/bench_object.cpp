@@ -68,7 +68,7 @@ struct blob {
     uint32_t rgba;
 };
 
-/* Belly, head, ears, nose, arms, legs; sitting round the origin. Times `scale`, its corners are as many as the paper's. */
+/* Belly, head, ears, nose, arms, legs, round the origin. Times `scale` it has as many corners as the paper's object. */
 constexpr double scale = 1.0353;
 const blob character[] = {
     {{0, 0, 0}, {12.6, 11.4, 12.6}, 6, colour_pack(200, 120, 80, 255)},

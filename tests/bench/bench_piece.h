@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    A sculpture whose undo-files go nowhere: a dab as a stroke of its own, with everything undo costs but the disk.
+ * What:    A sculpture whose undo-files go nowhere: a dab as a stroke of its own, with all undo costs but the disk.
  * Is not:  Undoable (nothing can be read back); the bare engines (bench_rig.h).
  * Owner:   a piece owns its sculpture; large, not to be copied.
  * Errors:  ends the program as bench_rig_demand does.

@@ -182,6 +182,8 @@ std::string bench_rig::difference(bool normals) const
     std::string found = difference_in_corners();
     if (!found.empty())
         return found;
+    if (!per_corner_is_valid(&paper))
+        return "the reference is not what it should be";
     avl_walk w;
     key at;
     uint32_t id;

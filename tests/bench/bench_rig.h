@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The two engines side by side: clay with its surface, and the paper's layout (per_corner.h). Each can be given
- *          a dab, and the two can be compared, corner by corner and vertex by vertex.
+ * What:    The two engines side by side: clay with its surface, and the paper's layout (per_corner.h). Each can be
+ *          given a dab, and the two can be compared, corner by corner and vertex by vertex.
  * Is not:  Timing (bench_paper_table.cpp); the work itself (bench_object.h).
  * Owner:   a rig owns both engines; large, not to be copied.
  * Errors:  bench_rig_demand ends the program with a sentence and exit code 1: a benchmark of unequal work says nothing.
@@ -36,8 +36,8 @@ public:
     /* The reference starts anew with our field. */
     void load_reference();
     /* "" when both hold the same corners (bit by bit), crossing cubes, triangles and vertices (same edge, same colour,
-       same place within 1e-4, and if asked the same normal within 1e-3); otherwise the first difference. The paper's way
-       lets normals beside a dab age: ask only after load_reference. */
+       same place within 1e-4, and if asked the same normal within 1e-3); otherwise the first difference. The paper's
+       way lets normals beside a dab age: ask only after load_reference. */
     std::string difference(bool normals) const;
     uint64_t vertices() const; /* each cut edge once, over all patches */
 

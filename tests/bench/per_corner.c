@@ -412,3 +412,33 @@ status per_corner_update(per_corner *p, uint64_t *treated_out)
     *treated_out = p->treated_count;
     return STATUS_OK;
 }
+
+/* Adds the cube's stored corners to *corners. */
+static bool cube_is_valid(const per_corner *p, const per_corner_cube *cube, uint64_t *corners)
+{
+    bool any = false;
+    for (int n = 0; n < PER_CORNER_CORNERS; n++) {
+        if (cube->corner[n] != corner_find(p, key_add(cube->at, n & 1, n >> 1 & 1, n >> 2)))
+            return false;
+        any |= cube->corner[n] != NULL;
+        *corners += cube->corner[n] != NULL;
+    }
+    for (int e = 0; e < PER_CORNER_EDGES; e++) {
+        int from = edge_from[e], to = from | 1 << e / 4;
+        if (((cube->index >> from ^ cube->index >> to) & 1) != (cube->edge[e] != NULL))
+            return false;
+    }
+    return any;
+}
+
+bool per_corner_is_valid(const per_corner *p)
+{
+    avl_walk w;
+    key at;
+    uint32_t id;
+    uint64_t corners = 0;
+    for (bool more = avl_first(&w, &p->cubes, &at, &id); more; more = avl_next(&w, &at, &id))
+        if (!cube_is_valid(p, (const per_corner_cube *)pool_at(&p->cube_items, id), &corners))
+            return false;
+    return corners == (uint64_t)PER_CORNER_CORNERS * avl_count(&p->corners) && avl_count(&p->modified) == 0;
+}

@@ -6,21 +6,22 @@
  * Is not:  Part of the program (clay.h and surface.h are); complete (toothpaste and soft eraser, Wyvill's ellipsoid, no
  *          undo-files, no triangle list: the paper draws from the crossing cubes and their indices).
  * Shape:   corners, cubes, crossing, edges: AVL trees of ids into pools. A cube points at its eight corners (NULL:
- *          absent) and twelve edges (NULL: not cut); corner c of a cube = dx + 2 dy + 4 dz, edge e runs along axis e / 4.
+ *          absent) and twelve edges (NULL: not cut); corner c of a cube = dx + 2 dy + 4 dz, edge e runs along axis
+ *          e / 4.
  *
  *              apply  -> corners, modified          update: modified -> cubes -> crossing, edges
  *
  *          An edge's key is that of its two corners, smaller first: six ints in the paper, here packed into three as
- *          (i, j, 3k + 2 - axis). That keeps the order of the six, since of two edges that leave one corner the one along
- *          k has the smaller far end, then the one along j; it needs |k| < 2^31 / 3.
+ *          (i, j, 3k + 2 - axis). That keeps the order of the six, since of the edges that leave one corner the one
+ *          along k has the smallest far end, then the one along j; it needs |k| < 2^31 / 3.
  * Units:   lattice steps; potentials in [0, 3].
  * Owner:   the caller owns the struct, the struct everything else.
  * Errors:  STATUS_POOL_FULL, STATUS_NO_MEMORY, STATUS_BAD_POSE, ...: what is being measured is then lost; finish it.
  * Cost:    apply: a search per dirtied corner. update: eight searches per dirtied corner, one per new or lost edge, six
- *          per gradient, each O(log n). What can be kept once found is kept: pointers in cubes, stamps instead of a second
+ *          per gradient, each O(log n). What was found once is kept: pointers in cubes, stamps instead of a second
  *          temporary tree, a gradient per corner and update, an edge refreshed once per update.
- * Source:  000 sections 3.1, 3.2. We differ: a removed corner leaves its tree in the update, not in the dab, so that one
- *          search serves both; displacement vectors start afresh every eight corners, as walk.h has it.
+ * Source:  000 sections 3.1, 3.2. We differ: a removed corner leaves its tree in the update, not in the dab, so that
+ *          one search serves both; displacement vectors start afresh every eight corners, as walk.h has it.
  */
 #ifndef GLAISE_BENCH_PER_CORNER_H
 #define GLAISE_BENCH_PER_CORNER_H
@@ -88,6 +89,9 @@ const per_corner_corner *per_corner_find(const per_corner *p, key at);
 const per_corner_edge *per_corner_find_edge(const per_corner *p, key smaller, int axis);
 const per_corner_cube *per_corner_find_cube(const per_corner *p, key at);
 size_t per_corner_bytes(const per_corner *p);
+/* Between an update and the next dab: each cube points at exactly its stored corners, and has one; each stored corner
+   is in eight cubes; edges are pointed at where an index says they are cut. O(n log n). */
+bool per_corner_is_valid(const per_corner *p);
 
 #ifdef __cplusplus
 }

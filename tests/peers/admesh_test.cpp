@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Goal:   admesh, which printers' people trust, finds nothing to mend in our STL and the same count and volume.
- * Method: the program is run on both pieces and its report read. A piece with a hole shows that the report is read right.
+ * Method: the program is run on both pieces and its report read. A piece with a hole shows that the report is read
+ *         right.
  */
 #include "clay_piece.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Goal:   assimp, through which game and animation programs read files, sees in STL, PLY and OBJ the piece that was written:
- *         every corner's place, normal and colour, closed, with the same volume.
+ * Goal:   assimp, through which game and animation programs read files, sees in STL, PLY and OBJ the piece that was
+ *         written: every corner's place, normal and colour, closed, with the same volume.
  * Method: its C interface reads the files without any clean-up step; what it hands over is compared corner by corner.
  */
 #include "peer_judge.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The two pieces every peer is shown: made of clay corner by corner, polygonized by surface/, written by exchange
- *          to a file of the test's own.
+ * What:    The two pieces every peer is shown: made of clay corner by corner, polygonized by surface/, written by
+ *          exchange to a file of the test's own.
  * Is not:  A mesh with known answers (tests/unit/exchange/handmade.h); the answers here are the engine's own, and
  *          the peers have to agree with them.
  * Shape:   a blob (one bumpy ball) and a torus, both across brick borders and on both sides of zero, coloured by place,
@@ -30,8 +30,8 @@ struct clay_piece {
     double volume_mm3() const;
 };
 
-/* A file in the tests' temporary folder, gone again with the struct. `left_out`: triangles missing at the end, for tests
-   of the judges. */
+/* A file in the tests' temporary folder, gone again with the struct. `left_out`: triangles missing at the end, for
+   tests of the judges. */
 struct clay_piece_file {
     std::string path;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Goal:   Coin, the Open Inventor of today, reads our .iv and sees the piece that was written: every corner's place, normal,
- *         colour and opacity, closed, facing outwards, with the same volume.
+ * Goal:   Coin, the Open Inventor of today, reads our .iv and sees the piece that was written: every corner's place,
+ *         normal, colour and opacity, closed, facing outwards, with the same volume.
  * Method: SoDB reads the file, SoCallbackAction hands over triangles as a viewer would get them.
  */
 #include "peer_judge.h"

@@ -2,7 +2,8 @@
 /*
  * What:    Compares what a peer saw of a file with the piece that was written.
  * Is not:  The peers (admesh_test, assimp_test, coin_test).
- * Shape:   a peer tells of corners: three a triangle, in the file's order; normals and colours per corner where it has them.
+ * Shape:   a peer tells of corners: three a triangle, in the file's order; normals and colours per corner where it has
+ *          them.
  * Errors:  disagreement is a failure of the running test.
  */
 #ifndef GLAISE_PEERS_PEER_JUDGE_H

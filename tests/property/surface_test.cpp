@@ -36,11 +36,13 @@ seen_patches look_at(const surface *s)
 {
     seen_patches all;
     for (uint32_t slot = 0; slot < surface_slots(s); slot++)
-        if (const patch *p = surface_patch(s, slot))
+        if (const patch *p = surface_patch(s, slot)) {
+            const auto *corners = reinterpret_cast<const uint16_t *>(p->triangles);
             all[p->at] = {p->generation,
                           {p->vertices, p->vertices + p->vertex_count},
-                          {p->triangles[0], p->triangles[0] + 3 * size_t{p->triangle_count}},
+                          {corners, corners + 3 * size_t{p->triangle_count}},
                           p->crossing};
+        }
     return all;
 }
 

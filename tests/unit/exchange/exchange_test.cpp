@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Goal:   the ending of a name chooses the format; refusals name what is known and send no byte; the native file comes back
- *         whole, and a damaged one is refused with its offset, leaving the sculpture alone.
+ * Goal:   the ending of a name chooses the format; refusals name what is known and send no byte; the native file comes
+ *         back whole, and a damaged one is refused with its offset, leaving the sculpture alone.
  * Method: a small ball of clay goes out through every format and is read back; the native file is cut at every length,
  *         flipped at every byte, and given a later version.
  */

@@ -106,8 +106,8 @@ handmade handmade_torus(const point &middle, double ring, double tube, int aroun
         for (int v = 0; v < across; v++) {
             const double a = turn * u / around, b = turn * v / across;
             const point out = {std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)};
-            add_vertex(h, {middle[0] + ring * std::cos(a) + tube * out[0], middle[1] + ring * std::sin(a) + tube * out[1],
-                           middle[2] + tube * out[2]}, out);
+            const double x = middle[0] + ring * std::cos(a), y = middle[1] + ring * std::sin(a);
+            add_vertex(h, {x + tube * out[0], y + tube * out[1], middle[2] + tube * out[2]}, out);
         }
     for (int u = 0; u < around; u++)
         for (int v = 0; v < across; v++) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Meshes with known answers, made without any clay: closed, outwards, coloured, in bricks on both sides of zero.
+ * What:    Meshes with known answers, made without any clay: closed, outwards, coloured, in bricks on both sides of
+ *          zero.
  * Is not:  What surface/ makes (tests/peers uses that).
  * Owner:   the struct owns the arrays its mesh points into; move it, do not copy it.
  */

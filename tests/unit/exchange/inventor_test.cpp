@@ -61,8 +61,9 @@ TEST(inventor, nodes_stand_in_their_order)
     handmade tetrahedron = handmade_tetrahedron(8);
     std::vector<std::string> nodes;
     const soup s = readback_inventor(written(tetrahedron, 1, "an \"owl\" } \\"), &nodes);
-    const std::vector<std::string> expected = {"Info",   "ShapeHints",    "Material",    "PackedColor",   "MaterialBinding",
-                                               "Normal", "NormalBinding", "Coordinate3", "IndexedFaceSet"};
+    const std::vector<std::string> expected = {"Info",        "ShapeHints",      "Material",
+                                               "PackedColor", "MaterialBinding", "Normal",
+                                               "NormalBinding", "Coordinate3",   "IndexedFaceSet"};
     EXPECT_EQ(nodes, expected);
     EXPECT_EQ(s.name, "\"glaise, millimetres: an 'owl' } /\"");
 }

@@ -59,7 +59,8 @@ std::string decimal(float value, int digits)
 
 TEST(outlet, decimals_are_printfs_and_come_back)
 {
-    const float values[] = {0.0f, -0.0f, 1.0f, -1.5f, 0.1f, 1e-45f, 1.17549435e-38f, 3.40282347e38f, -123456.789f, 2e9f};
+    const float values[] = {0.0f,   -0.0f,           1.0f,           -1.5f,        0.1f,
+                            1e-45f, 1.17549435e-38f, 3.40282347e38f, -123456.789f, 2e9f};
     for (float value : values) {
         char expected[64];
         std::snprintf(expected, sizeof expected, "%.9g", static_cast<double>(value));

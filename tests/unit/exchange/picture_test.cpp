@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Goal:   a picture comes out as a well-formed PNG with an sRGB chunk and exactly its pixels.
- * Method: chunks are walked and their checksums computed here; pixels are decoded by libpng's simplified reader; the sink
- *         fails at every byte.
+ * Method: chunks are walked and their checksums computed here; pixels are decoded by libpng's simplified reader; the
+ *         sink fails at every byte.
  */
 #include "bucket.h"
 

@@ -8,8 +8,8 @@
  *              DISPLAY_HEADLESS   no window, no default framebuffer: see headless.h
  *
  * Owner:   the caller owns the display and closes it; the OpenGL objects made in it end with it.
- * Errors:  display_open answers NULL, display_make_current false; the trouble then says, in one line, everything that was
- *          tried and what each try was missing. Nothing is left half open.
+ * Errors:  display_open answers NULL, display_make_current false; the trouble then says, in one line, everything that
+ *          was tried and what each try was missing. Nothing is left half open.
  * Cost:    display_open loads the driver: tens of milliseconds, some hundred for a software renderer.
  */
 #ifndef GLAISE_DISPLAY_DISPLAY_H

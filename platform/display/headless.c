@@ -81,7 +81,8 @@ static bool bind_context(headless *h, report *r)
     return true;
 }
 
-/* One way: from a native display, which may be EGL_NO_DISPLAY, to a context. Leaves nothing open when it answers false. */
+/* One way: from a native display, which may be EGL_NO_DISPLAY, to a context. Leaves nothing open when it answers
+   false. */
 static bool try_display(headless *h, EGLDisplay egl, report *r)
 {
     if (egl == EGL_NO_DISPLAY)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    A display without a screen: an EGL context for OpenGL ES 3.1 in which framebuffer objects are drawn and read.
- *          For tests, for pictures made from a tape, for machines where nobody looks.
+ * What:    A display without a screen: an EGL context for OpenGL ES 3.1 in which framebuffer objects are drawn and
+ *          read. For tests, for pictures made from a tape, for machines where nobody looks.
  * Is not:  A window or a screen; the port callers use (display.h).
  * Shape:   ways tried in turn:
  *              surfaceless   EGL_MESA_platform_surfaceless: Mesa, with or without /dev/dri, in software if need be

@@ -15,8 +15,9 @@
 /* Images of bricks as they were before the stroke: a stroke may touch the whole sculpture once. */
 #define CAPACITY_IMAGES CAPACITY_BRICKS
 
-/* Bricks marked dirty at one time: all of them (after a load), and the empty ones round them that an eraser passes. */
-#define CAPACITY_DIRT (2u * CAPACITY_BRICKS)
+/* Bricks marked dirty at one time: all of them (after a load), as many empty ones that an eraser passes, and one for
+   every image, held back so that a change can be reverted whatever is marked. */
+#define CAPACITY_DIRT (2u * CAPACITY_BRICKS + CAPACITY_IMAGES)
 
 /* Patches: one per brick, and one per empty brick whose cubes reach into a stored one. */
 #define CAPACITY_PATCHES (2u * CAPACITY_BRICKS)

@@ -129,10 +129,9 @@ void clay_need_add(const clay *c, clay_need *need, key brick_at, bool opened)
 
 status clay_need_fits(const clay *c, const clay_need *need)
 {
-    uint64_t reserve = c->changes.recording ? change_count(&c->changes) + need->images : 0;
     if (need->bricks > pool_room(&c->bricks) || need->images > pool_room(&c->changes.images))
         return STATUS_POOL_FULL;
-    return need->marks + reserve > dirt_room(&c->dirty) ? STATUS_POOL_FULL : STATUS_OK;
+    return need->marks + c->changes.images.limit > dirt_room(&c->dirty) ? STATUS_POOL_FULL : STATUS_OK;
 }
 
 status clay_room(const clay *c, uint64_t fresh, uint64_t touched)

@@ -72,9 +72,10 @@ typedef struct clay_need {
 
 /* Adds one brick, each once: `opened` says whether it will be opened (made if absent) or only its dirt marked. */
 void clay_need_add(const clay *c, clay_need *need, key brick_at, bool opened);
-/* STATUS_POOL_FULL unless there is room; a mark is kept in reserve for every image, so that the change can be
+/* STATUS_POOL_FULL unless there is room; as many marks as there can be images are held back, so that a change can be
    reverted. */
 STATUS_CHECKED status clay_need_fits(const clay *c, const clay_need *need);
+
 /* Ids of the 27 bricks round a brick key, POOL_NONE where absent; by links when the brick itself is stored. */
 void clay_neighbours(const clay *c, key brick_at, uint32_t ids_out[BRICK_NEIGHBOURS]);
 

@@ -7,7 +7,7 @@
  * Owner:   the pixels stay the caller's.
  * Errors:  STATUS_BAD_PARAMETER for a side of 0 or above PICTURE_SIDE_MAX or channels other than 3 and 4;
  *          STATUS_NO_MEMORY; the sink's. No byte leaves before the parameters are found good.
- * Cost:    zlib's: about 20 ms for a million pixels of a rendered scene.
+ * Cost:    zlib's: 0.15 s of one core for a million pixels as measured. Not for the frame path.
  * Source:  000 section 2 ("save a screen snapshot").
  */
 #ifndef GLAISE_EXCHANGE_PICTURE_H

@@ -151,16 +151,14 @@ static void edges_sort(const mesh *m, uint64_t *end, uint64_t *other)
     }
 }
 
-/* Each value has exactly one partner that differs in the lowest bit, and no double. */
+/* Each value has exactly one partner that differs in the lowest bit: the same edge the other way. Of doubles, the
+   partner would have two. */
 static bool edges_pair(const uint64_t *other, uint64_t count)
 {
     for (uint64_t a = 0; a < count; a++) {
         int partners = 0;
-        for (uint64_t b = 0; b < count; b++) {
+        for (uint64_t b = 0; b < count; b++)
             partners += other[b] == (other[a] ^ 1);
-            if (b != a && other[b] == other[a])
-                return false;
-        }
         if (partners != 1)
             return false;
     }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Where a picture is drawn: a multisampled framebuffer of its own, resolved into a texture that can be read back
- *          or shown.
+ * What:    Where a picture is drawn: a multisampled framebuffer of its own, resolved into a texture that can be read
+ *          back or shown.
  * Is not:  What is drawn (view.h); a screen or window (platform/display); a picture file (exchange/picture.h).
  * Shape:
  *              colour SRGB8_ALPHA8, N samples  --resolve-->  texture SRGB8_ALPHA8
  *              depth 24 bit, N samples             (dropped)
  *
- *          N is CANVAS_SAMPLES or what the machine has. Shaders write linear light; OpenGL encodes on the way in, so that
- *          blending and resolving happen in linear light. The texture's bytes are sRGB.
+ *          N is CANVAS_SAMPLES or what the machine has. Shaders write linear light; OpenGL encodes on the way in, so
+ *          that blending and resolving happen in linear light. The texture's bytes are sRGB.
  * Units:   pixels.
  * Owner:   the caller owns the struct; a zeroed one is closed. The context must be current throughout.
- * Errors:  canvas_size false: a side out of range or no memory on the device; the canvas is then empty, the trouble says
- *          which. canvas_read false: nothing was resolved yet, or the device refused.
+ * Errors:  canvas_size false: a side out of range or no memory on the device; the canvas is then empty, the trouble
+ *          says which. canvas_read false: nothing was resolved yet, or the device refused.
  * Cost:    canvas_size does nothing when the size is what it was.
  * Source:  000 section 5 (multisampling) and figure 13.
  */

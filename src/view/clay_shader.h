@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The fragment stage for clay: its colour under the lights, the environment over it, and the ring where the tool's
- *          limit of influence meets it.
+ * What:    The fragment stage for clay: its colour under the lights, the environment over it, and the ring where the
+ *          tool's limit of influence meets it.
  * Is not:  The vertex stage (patch_shader.h); the environment's picture (studio.h). It needs colour_shader.h before it.
  * Shape:   everything in eye space; u is the unit vector from the eye, v = -u, n the normal, r = u - 2 n (n.u).
  *              diffuse     wrapped a little round the terminator, red furthest: light wanders in clay

@@ -2,8 +2,8 @@
 /*
  * What:    What all stages share: sRGB to linear light and back, and the roll-off of bright light.
  * Is not:  The encoding of the finished picture: the sRGB framebuffer does that (canvas.h).
- * Shape:   highlight() leaves light under KNEE as it is, so that clay in ordinary light shows the colour that was chosen,
- *          and bends the rest smoothly towards 1, as film does.
+ * Shape:   highlight() leaves light under KNEE as it is, so that clay in ordinary light shows the colour that was
+ *          chosen, and bends the rest smoothly towards 1, as film does.
  * Units:   linear light, 1 = the brightest a screen shows.
  */
 #ifndef GLAISE_VIEW_COLOUR_SHADER_H

@@ -11,7 +11,8 @@
  *
  * Units:   millimetres; colours in linear light.
  * Owner:   the caller owns the struct. The context must be current throughout.
- * Errors:  marker_open false: the trouble holds the compiler's words. A tool whose frame is flat or not finite is not drawn.
+ * Errors:  marker_open false: the trouble holds the compiler's words. A tool whose frame is flat or not finite is not
+ *          drawn.
  * Cost:    a few draw calls.
  * Source:  000 section 2, figures 2 and 3.
  */

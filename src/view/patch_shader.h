@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The vertex stage for patches: from packed vertices (upload.h) to eye space. Clay and freeform tools share it.
+ * What:    The vertex stage for patches: from packed vertices (upload.h) to eye space. Clay and freeform tools share
+ *          it.
  * Is not:  A fragment stage (clay_shader.h, marker_shader.h). It needs colour_shader.h before it.
  * Shape:   brick keys are subtracted as integers, and offsets inside a brick are multiples of 2^-12: two patches that
  *          share a vertex compute it with the same bits, so that no background shines through between them, and a piece

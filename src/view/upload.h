@@ -3,8 +3,8 @@
  * What:    A surface's patches on the graphics device, kept up to date by generation: what did not change is not sent.
  *          Many patches share one pair of buffers and are drawn by one call.
  * Is not:  The surface itself (surface.h); how it is lit (clay_shader.h).
- * Shape:   pages; a page has UPLOAD_UNITS units, a patch takes as many neighbouring units as it needs and keeps them while
- *          it fits:
+ * Shape:   pages; a page has UPLOAD_UNITS units, a patch takes as many neighbouring units as it needs and keeps them
+ *          while it fits:
  *
  *              unit      32 vertices of 16 bytes, 64 triangles, and where lines are wanted 96 lines, of 16-bit indices
  *              page      2,048 units = 65,536 vertices (what 16 bits can name) = 1 MiB + 768 KiB (+ 768 KiB)
@@ -12,8 +12,8 @@
  *                        normal, octahedral, 2 x i16; RGBA8
  *              u_bricks  per page a texture, 2,048 x 1 texels: brick key of the patch that begins at that unit
  *
- *          Unused indices name one vertex three times: nothing is drawn there. A border vertex has offset 0 in one patch
- *          and 8 in the other; both are exact, and so are the offsets between: see patch_shader.h.
+ *          Unused indices name one vertex three times: nothing is drawn there. A border vertex has offset 0 in one
+ *          patch and 8 in the other; both are exact, and so are the offsets between: see patch_shader.h.
  * Units:   lattice steps.
  * Owner:   the caller owns the struct; upload_finish frees the device's memory. The context must be current throughout.
  * Errors:  upload_update false: no memory on the device, or UPLOAD_PAGES_MAX; what was sent stays, what was not will be

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The picture: a sculpture's patches under lights and an environment, with tool, lights and workspace box, drawn
- *          into a framebuffer of its own. This is the room's door.
+ * What:    The picture: a sculpture's patches under lights and an environment, with tool, lights and workspace box,
+ *          drawn into a framebuffer of its own. This is the room's door.
  * Is not:  What is to be seen (station/snapshot.h); a screen or window (platform/display); a picture file
  *          (exchange/picture.h).
  * Shape:
@@ -10,10 +10,11 @@
  *              view_pixels   the finished picture as bytes
  *
  * Units:   pixels; millimetres in the snapshot.
- * Owner:   view_open's caller owns the view. An OpenGL ES 3.1 context must be current in every call, and always the same.
- *          The view leaves no framebuffer, program or vertex array bound, and takes the state it needs for itself.
- * Errors:  true, or false and one sentence in the trouble. After a failed view_update what was sent is shown, the rest is
- *          tried again by the next; after a failed view_draw there is no picture.
+ * Owner:   view_open's caller owns the view. An OpenGL ES 3.1 context must be current in every call, and always the
+ *          same. The view leaves no framebuffer, program or vertex array bound, and takes the state it needs for
+ *          itself.
+ * Errors:  true, or false and one sentence in the trouble. After a failed view_update what was sent is shown, the
+ *          rest is tried again by the next; after a failed view_draw there is no picture.
  * Cost:    view_open: compiles four programs, computes the environment, tens of milliseconds. view_update: by changed
  *          patch. view_draw: one call per 65,536 vertices, and a few.
  * Source:  000 sections 2 and 5.

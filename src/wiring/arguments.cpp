@@ -31,6 +31,24 @@ std::string commands_text()
     return out;
 }
 
+/* A range lets "nan" through: every comparison with it is false. */
+CLI::Validator a_number()
+{
+    auto check = [](std::string &text) {
+        return text.find_first_of("nN") == std::string::npos ? "" : "expected a number, not " + text;
+    };
+    return CLI::Validator(check, "");
+}
+
+/* Without it an unknown task would only be told that a task is required. */
+bool task_is_known(const CLI::App &app, const std::string &word)
+{
+    for (const CLI::App *task : app.get_subcommands([](const CLI::App *) { return true; }))
+        if (task->get_name() == word)
+            return true;
+    return word.starts_with("-");
+}
+
 void replay_options(CLI::App *app, arguments *a)
 {
     app->add_option("TAPE", a->input, "the tape to replay")->required();
@@ -42,7 +60,8 @@ void replay_options(CLI::App *app, arguments *a)
     app->add_option("--stats", a->statistics, "writes counts, times and digests of every dab as JSON");
     app->add_option("--record", a->record, "writes everything that was done as a tape");
     app->add_option("--step", a->step_mm, "step of the lattice in mm, instead of the tape's")
-        ->check(CLI::Range(SCULPTURE_STEP_MM_MIN, SCULPTURE_STEP_MM_MAX));
+        ->check(CLI::Range(SCULPTURE_STEP_MM_MIN, SCULPTURE_STEP_MM_MAX))
+        ->check(a_number());
     app->add_option("--width", a->width, "width of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
     app->add_option("--height", a->height, "height of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
     app->add_option("--ring", a->ring, "undo-files kept in the store")->check(CLI::Range(1, +HISTORY_RING_MAX));
@@ -66,6 +85,11 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
     exporting->add_option("FILE", a.exports, "file to write: " + exchange_endings())->required()->expected(1);
     CLI::App *info = app.add_subcommand("info", "says what a sculpture file holds");
     info->add_option("FILE", a.input, "a .glaise file, or a store's \"field\"")->required();
+    if (count > 1 && !task_is_known(app, words[1])) {
+        std::cerr << "glaise: " << words[1] << ": expected run, replay, export or info (glaise --help)\n";
+        *exit_out = ARGUMENTS_EXIT_WRONG;
+        return std::nullopt;
+    }
     try {
         app.parse(count, words);
     } catch (const CLI::ParseError &e) {

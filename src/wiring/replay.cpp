@@ -94,8 +94,16 @@ bool performance_open(performance *p, double step_mm)
     p->counts.every_dab = !a.statistics.empty();
     station_ears ears;
     ears.clock_ns = clock_ns;
-    ears.dab = [p](const station_dab &d) { statistics_dab(&p->counts, d, p->piece.get()); };
-    ears.stroke = [p](status, int64_t history_ns) { statistics_stroke(&p->counts, history_ns); };
+    ears.dab = [p](const station_dab &d) {
+        statistics_dab(&p->counts, d, p->piece.get());
+        if (d.outcome != STATUS_OK)
+            p->exit = ARGUMENTS_EXIT_TROUBLE;
+    };
+    ears.stroke = [p](status outcome, int64_t history_ns) {
+        statistics_stroke(&p->counts, history_ns);
+        if (outcome != STATUS_OK && outcome != STATUS_HISTORY_ENDS) /* that history ends is no failure */
+            p->exit = ARGUMENTS_EXIT_TROUBLE;
+    };
     p->desk = station_open(p->piece.get(), std::move(ears));
     return true;
 }

@@ -31,6 +31,7 @@ struct studio {
     ellipsoid ball = {};
     seeded chance;
     double step_mm = 1;
+    bool at_newest = true; /* nothing to redo */
     uint64_t cut_triangles = 0, dabs = 0; /* so that a test of nothing is seen */
 };
 
@@ -68,9 +69,11 @@ void expect_seen_is_clay(studio &x)
     surface &seen = x.s->surface;
     ASSERT_EQ(surface_rebuild(&x.fresh, &x.s->clay, nullptr), STATUS_OK);
     ASSERT_EQ(seen.patches.count, x.fresh.patches.count);
-    for (uint32_t slot = 0; slot < surface_slots(&x.fresh); slot++)
-        if (const patch *p = surface_patch(&x.fresh, slot))
-            ASSERT_NO_FATAL_FAILURE(expect_same_patch(*p, surface_find(&seen, p->at)));
+    for (uint32_t slot = 0; slot < surface_slots(&x.fresh); slot++) {
+        const patch *p = surface_patch(&x.fresh, slot); /* a surface made from nothing has no gaps */
+        ASSERT_NE(p, nullptr);
+        ASSERT_NO_FATAL_FAILURE(expect_same_patch(*p, surface_find(&seen, p->at)));
+    }
     ASSERT_EQ(seen.triangles, x.fresh.triangles);
     ASSERT_EQ(seen.vertices, x.fresh.vertices);
     ASSERT_EQ(seen.crossing, x.fresh.crossing);
@@ -204,7 +207,9 @@ void back_and_forth(studio &x, const std::vector<state> &past)
         ASSERT_EQ(sculpture_redo(x.s.get()), STATUS_OK);
         ASSERT_NO_FATAL_FAILURE(expect_state(x, past[now - n]));
     }
-    ASSERT_EQ(sculpture_redo(x.s.get()), STATUS_HISTORY_ENDS);
+    if (x.at_newest) {
+        ASSERT_EQ(sculpture_redo(x.s.get()), STATUS_HISTORY_ENDS);
+    }
 }
 
 void sometimes(studio &x, std::vector<state> &past)
@@ -232,10 +237,12 @@ void sometimes(studio &x, std::vector<state> &past)
         ASSERT_EQ(x.s->clay.corners, 0u);
         if (changes)
             past.push_back(state_of(x));
+        x.at_newest = x.at_newest || changes;
     }
     if (past.size() > 1 && seeded_chance(x.chance, 0.05)) { /* another future */
         ASSERT_EQ(sculpture_undo(x.s.get()), STATUS_OK);
         past.pop_back();
+        x.at_newest = false;
         ASSERT_NO_FATAL_FAILURE(expect_state(x, past.back()));
     }
 }
@@ -252,8 +259,10 @@ void session(uint64_t seed, double step_mm, int strokes)
         SCOPED_TRACE(testing::Message() << "stroke " << n);
         ASSERT_NO_FATAL_FAILURE(stroke(x));
         const state after = state_of(x);
-        if (after.field != past.back().field)
+        if (after.field != past.back().field) {
             past.push_back(after);
+            x.at_newest = true;
+        }
         if (past.size() > RING + 1) /* older ones the ring has let go */
             past.erase(past.begin());
         if (past.size() > 1 && seeded_chance(x.chance, 0.4)) {
@@ -270,12 +279,12 @@ void session(uint64_t seed, double step_mm, int strokes)
 
 TEST(stroke_property, the_surface_seen_is_that_of_the_clay)
 {
-    session(1, 1, seeded_steps(500));
+    session(1, 1, seeded_steps(1000));
 }
 
 TEST(stroke_property, in_another_step_too)
 {
-    session(2, 0.37, seeded_steps(500));
+    session(2, 0.37, seeded_steps(1000));
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Goal:   what all four mesh writers promise together: the same floats, the same refusals before the first byte, a
- *         failing sink reported wherever it fails, the same bytes in a country that writes 1,5, and names that break nothing.
+ *         failing sink reported wherever it fails, the same bytes in a country that writes 1,5, and names that break
+ *         nothing.
  * Method: every writer runs over the same hand-made pieces.
  */
 #include "bucket.h"

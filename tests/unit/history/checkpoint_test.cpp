@@ -219,7 +219,7 @@ TEST(checkpoint, old_and_new_bricks_are_dirty_afterwards)
 /* --- trouble --- */
 
 /* The clay that was there is there still. */
-void expect_refused(const bytes_kept &k, status expected, const std::string &what)
+void expect_refused(const bytes_kept &k, status expected, const std::string &what, const std::string &words = "")
 {
     piece_clay to;
     fill_small(&to.c);
@@ -231,6 +231,7 @@ void expect_refused(const bytes_kept &k, status expected, const std::string &wha
     EXPECT_EQ(dirt_count(&to.c.dirty), 0u) << what;
     EXPECT_LE(why.offset, k.bytes.size()) << what;
     EXPECT_NE(why.expected[0], '\0') << what;
+    EXPECT_NE(std::string(why.expected).find(words), std::string::npos) << what << ": " << why.expected;
 }
 
 TEST(checkpoint, every_flip_and_cut_and_tail_is_refused)
@@ -279,31 +280,32 @@ TEST(checkpoint, forged_files_are_refused)
         status expected;
         size_t at;
         uint32_t word;
+        const char *words; /* so that the right check refused it, and not a later one by luck */
     };
     const uint32_t nan = 0x7fc00000, above_3 = 0x40400001, minus_1 = 0xbf800000;
     const std::vector<forgery> all = {
-        {"a step that is not a number", STATUS_CORRUPT, 20, 0x7ff80000},
-        {"a step of minus zero", STATUS_CORRUPT, 20, 0x80000000},
-        {"one brick fewer", STATUS_CORRUPT, 40, 1},
-        {"one brick more", STATUS_CORRUPT, 40, 3},
-        {"more bricks than there may be", STATUS_POOL_FULL, 44, 1},
-        {"another digest", STATUS_CORRUPT, 48, 1},
-        {"no corners", STATUS_CORRUPT, first + 12, 0},
-        {"more corners than the mask has", STATUS_CORRUPT, first + 12, 2},
-        {"corners beyond a brick", STATUS_CORRUPT, first + 12, 0x20000000},
-        {"bricks out of order", STATUS_CORRUPT, first + 8, 4},
-        {"the same brick twice", STATUS_CORRUPT, first + 8, 1},
-        {"a brick beyond the lattice", STATUS_CORRUPT, second, 0x40000000},
-        {"not a number", STATUS_CORRUPT, second + 80, nan},
-        {"above 3", STATUS_CORRUPT, second + 84, above_3},
-        {"below 0", STATUS_CORRUPT, second + 80, minus_1},
-        {"stored, yet empty", STATUS_CORRUPT, second + 80, 0},
+        {"a step that is not a number", STATUS_CORRUPT, 20, 0x7ff80000, "step"},
+        {"a step of minus zero", STATUS_CORRUPT, 20, 0x80000000, "step"},
+        {"one brick fewer", STATUS_CORRUPT, 40, 1, "end of the file"},
+        {"one brick more", STATUS_CORRUPT, 40, 3, "rest of a brick"},
+        {"more bricks than there may be", STATUS_POOL_FULL, 44, 1, "no more bricks"},
+        {"another digest", STATUS_CORRUPT, 48, 1, "digest of the clay"},
+        {"no corners", STATUS_CORRUPT, first + 12, 0, "as many as the mask"},
+        {"more corners than the mask has", STATUS_CORRUPT, first + 12, 2, "as many as the mask"},
+        {"corners beyond a brick", STATUS_CORRUPT, first + 12, 0x20000000, "as many as the mask"},
+        {"bricks out of order", STATUS_CORRUPT, first + 8, 4, "above the one before"},
+        {"the same brick twice", STATUS_CORRUPT, first + 8, 1, "above the one before"},
+        {"a brick beyond the lattice", STATUS_CORRUPT, second, 0x40000000, "within the lattice"},
+        {"not a number", STATUS_CORRUPT, second + 80, nan, "potentials"},
+        {"above 3", STATUS_CORRUPT, second + 84, above_3, "potentials"},
+        {"below 0", STATUS_CORRUPT, second + 80, minus_1, "potentials"},
+        {"stored, yet empty", STATUS_CORRUPT, second + 80, 0, "potentials"},
     };
     for (const forgery &f : all) {
         bytes_kept k = good;
         byte_order_put_u32(&k.bytes[f.at], f.word);
         ASSERT_NE(k.bytes, good.bytes) << f.what;
-        expect_refused(resealed(k), f.expected, f.what);
+        expect_refused(resealed(k), f.expected, f.what, f.words);
     }
     bytes_kept newer = good;
     byte_order_put_u32(&newer.bytes[8], 2);

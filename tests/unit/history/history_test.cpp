@@ -445,6 +445,19 @@ TEST(history, damaged_redo_file_ends_history_on_that_side)
     EXPECT_EQ(p.digest(), digests[2]);
 }
 
+TEST(history, file_of_another_stroke_that_did_the_same_is_not_believed)
+{
+    memory_store m;
+    piece p(m.port(), 10);
+    const piece_stroke there = {{{0, 0, 0}, 1, 1}}, gone = {{{0, 0, 0}, 0, 0}};
+    for (const piece_stroke &s : {there, gone, there})
+        ASSERT_EQ(p.stroke(s), STATUS_OK);
+    m.files["undo-0003"] = m.files["undo-0001"];
+    EXPECT_EQ(p.undo(), STATUS_CORRUPT);
+    EXPECT_EQ(clay_brick_count(&p.c), 1u);
+    expect_reopens(p, m);
+}
+
 TEST(history, file_of_another_stroke_is_not_believed)
 {
     memory_store m;

@@ -258,6 +258,8 @@ TEST(recovery, damage_on_the_undo_side_is_said_and_ends_it)
               "undo-0003 is damaged at byte 80 (expected the checksum of the header): not every stroke can be undone "
               "before stroke 7");
     EXPECT_EQ(s.m.files.count("undo-0003.set-aside"), 1u);
+    piece again(s.m.port(), 8);
+    EXPECT_STREQ(again.finding.text, "") << "said once is enough";
 }
 
 TEST(recovery, missing_redo_file_is_said_and_ends_it)
@@ -271,6 +273,19 @@ TEST(recovery, missing_redo_file_is_said_and_ends_it)
     EXPECT_EQ(p.h.oldest, 2u);
     EXPECT_EQ(std::string(p.finding.text), "undo-0000 is missing: not every stroke can be redone after stroke 7");
     EXPECT_EQ(s.m.files.count("undo-0001.set-aside"), 1u) << "stroke 9 leads nowhere without 8";
+    piece again(s.m.port(), 8);
+    EXPECT_STREQ(again.finding.text, "");
+}
+
+TEST(recovery, file_in_a_place_that_is_not_its_own_is_set_aside)
+{
+    scene s;
+    s.m.files["undo-0003"] = s.m.files["undo-0005"];
+    piece p(s.m.port(), 8);
+    ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(p.h.oldest, 4u);
+    EXPECT_NE(std::string(p.finding.text).find("a stroke that belongs in this place"), std::string::npos);
+    EXPECT_EQ(s.m.files.at("undo-0003.set-aside"), s.m.files.at("undo-0005"));
 }
 
 TEST(recovery, damaged_cursor_falls_back_to_the_last_stroke_that_links)
@@ -458,6 +473,46 @@ TEST(recovery, new_store_whose_cursor_was_not_written_opens_without_a_word)
     piece p(m.port(), 8);
     ASSERT_EQ(p.opened, STATUS_OK);
     EXPECT_STREQ(p.finding.text, "");
+}
+
+TEST(recovery, field_alone_is_enough)
+{
+    scene s;
+    const auto field = s.m.files.at("field");
+    s.m.files.clear();
+    s.m.files["field"] = field;
+    memory_store copy;
+    copy.files = s.m.files;
+    piece_clay c;
+    history h;
+    history_finding finding;
+    ASSERT_EQ(history_open(&h, copy.port(), 5, 3.0, &c.c, &finding), STATUS_OK);
+    EXPECT_STREQ(finding.text, "");
+    EXPECT_EQ(clay_digest(&c.c), s.digests[4]);
+    EXPECT_EQ(h.step_mm, 0.5) << "that of the field, not the caller's";
+    EXPECT_EQ(h.dab, 8u);
+    EXPECT_EQ(h.cursor, 4u);
+    EXPECT_FALSE(history_can_undo(&h) || history_can_redo(&h));
+    history_close(&h);
+}
+
+TEST(recovery, walk_over_more_bricks_than_dirt_has_room_for)
+{
+    /* One corner wanders through forty bricks, in clay that has room for eight, and dirt for sixteen. */
+    memory_store m;
+    uint64_t digest = 0;
+    {
+        piece p(m.port(), 100, 8);
+        for (int n = 1; n <= 40; n++) {
+            const piece_stroke stroke = {{{8 * n, 0, 0}, 1, 1}, {{8 * n - 8, 0, 0}, 0, 0}};
+            ASSERT_EQ(p.stroke(stroke), STATUS_OK);
+        }
+        digest = p.digest();
+    }
+    piece p(m.port(), 100, 8);
+    ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(p.digest(), digest);
+    EXPECT_EQ(dirt_count(&p.c.dirty), 1u);
 }
 
 TEST(recovery, leftovers_of_writing_are_not_looked_at)

@@ -46,12 +46,14 @@ status apply(clay *c, const std::vector<uint8_t> &bytes, undo_file_direction dir
     return s;
 }
 
-status check(const std::vector<uint8_t> &bytes)
+/* `words`, if there are any, are among those of the refusal. */
+status check(const std::vector<uint8_t> &bytes, const std::string &words = "")
 {
     undo_file_facts f;
-    preamble_trouble why = {UINT64_MAX, nullptr};
+    preamble_trouble why = {UINT64_MAX, ""};
     const status s = undo_file_check(&f, bytes.data(), bytes.size(), &why);
-    EXPECT_TRUE(s == STATUS_OK || (why.offset <= bytes.size() && why.expected != nullptr));
+    EXPECT_TRUE(s == STATUS_OK || (why.offset <= bytes.size() && why.expected[0] != '\0'));
+    EXPECT_NE(std::string(why.expected).find(words), std::string::npos) << why.expected;
     return s;
 }
 
@@ -286,6 +288,7 @@ struct forgery {
     const char *what;
     size_t at;
     std::vector<uint8_t> bytes;
+    const char *words; /* so that the right check refused it, and not a later one by luck */
 };
 
 std::vector<uint8_t> le32(uint32_t v)
@@ -312,38 +315,66 @@ TEST(undo_file, forged_records_are_refused)
     const size_t first = 88, second = 88 + 88 + 16;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<forgery> all = {
-        {"stroke 0", 16, le32(0)},
-        {"stroke of 2^63", 16 + 7, {0x80}},
-        {"fewer bricks", 48, le32(1)},
-        {"more bricks", 48, le32(3)},
-        {"no bricks", 48, le32(0)},
-        {"more corners", 56, le32(4)},
-        {"corners beyond any memory", 56 + 7, {0x7f}},
-        {"another size", 64, le32(static_cast<uint32_t>(good.size() + 16))},
-        {"ring of none", 72, le32(0)},
-        {"not zero", 76, le32(1)},
-        {"count not of the mask", first + 12, le32(2)},
-        {"mask not of the count", first + 16, {0xff}},
-        {"count of nothing", first + 12, le32(0)},
-        {"count beyond a brick", first + 12, le32(0x10000000)},
-        {"keys out of order", first + 8, le32(5)},
-        {"the same key twice", first + 8, le32(1)},
-        {"key beyond the lattice", second, le32(0x10000000)},
-        {"key in the layer that stays empty", second, le32(static_cast<uint32_t>(INT32_MAX >> 3))},
-        {"new potential above 3", second + 96, le_float(3.01f)},
-        {"negative", second + 96, le_float(-1)},
-        {"minus zero", second + 96, le_float(-0.0f)},
-        {"not a number", second + 96, le_float(nan)},
-        {"infinite", second + 96, le_float(std::numeric_limits<float>::infinity())},
-        {"colour where nothing is", second + 88, le32(7)},
-        {"absent on both sides", second + 100, le32(0)},
+        {"stroke 0", 16, le32(0), "stroke number"},
+        {"stroke of 2^63", 16 + 7, {0x80}, "stroke number"},
+        {"fewer bricks", 48, le32(1), "follows from the counts"},
+        {"more bricks", 48, le32(3), "follows from the counts"},
+        {"no bricks", 48, le32(0), "corners a brick"},
+        {"more corners", 56, le32(4), "follows from the counts"},
+        {"corners beyond any memory", 56 + 7, {0x7f}, "corners a brick"},
+        {"another size", 64, le32(static_cast<uint32_t>(good.size() + 16)), "follows from the counts"},
+        {"ring of none", 72, le32(0), "ring of 1"},
+        {"not zero", 76, le32(1), "then zero"},
+        {"count not of the mask", first + 12, le32(2), "as its mask"},
+        {"mask not of the count", first + 16, {0xff}, "as its mask"},
+        {"count of nothing", first + 12, le32(0), "as its mask"},
+        {"count beyond a brick", first + 12, le32(0x10000000), "as its mask"},
+        {"keys out of order", first + 8, le32(5), "above the one before"},
+        {"the same key twice", first + 8, le32(1), "above the one before"},
+        {"key beyond the lattice", second, le32(0x10000000), "within the lattice"},
+        {"key in the layer that stays empty", second, le32(INT32_MAX >> 3), "within the lattice"},
+        {"new potential above 3", second + 96, le_float(3.01f), "can hold"},
+        {"negative", second + 96, le_float(-1), "can hold"},
+        {"minus zero", second + 96, le_float(-0.0f), "can hold"},
+        {"not a number", second + 96, le_float(nan), "can hold"},
+        {"infinite", second + 96, le_float(std::numeric_limits<float>::infinity()), "can hold"},
+        {"colour where nothing is", second + 88, le32(7), "can hold"},
+        {"absent on both sides", second + 100, le32(0), "changed"},
     };
     for (const forgery &f : all) {
         std::vector<uint8_t> b = good;
         std::copy(f.bytes.begin(), f.bytes.end(), b.begin() + static_cast<std::ptrdiff_t>(f.at));
         ASSERT_NE(b, good) << f.what;
-        EXPECT_EQ(check(resealed(b)), STATUS_CORRUPT) << f.what;
+        EXPECT_EQ(check(resealed(b), f.words), STATUS_CORRUPT) << f.what;
     }
+}
+
+TEST(undo_file, forged_counts_cannot_add_up_past_the_last_number)
+{
+    /* 88 + 88 B + 16 C is the size of the file, modulo 2^64, and B <= C <= 512 B, modulo 2^64. */
+    piece_clay p;
+    recorded r;
+    record(&p.c, two_bricks, &r);
+    std::vector<uint8_t> b = r.bytes();
+    const uint64_t y = UINT64_C(1) << 53, bricks = (UINT64_C(1) << 61) + y;
+    const uint64_t corners = 3 * (UINT64_C(1) << 60) + 14 - y / 2 * 11;
+    ASSERT_EQ(88 + 88 * bricks + 16 * corners, b.size());
+    ASSERT_TRUE(bricks <= corners && corners <= bricks * 512);
+    byte_order_put_u64(&b[48], bricks);
+    byte_order_put_u64(&b[56], corners);
+    EXPECT_EQ(check(resealed(b), "changed corners a brick"), STATUS_CORRUPT);
+}
+
+TEST(undo_file, corners_the_header_has_beyond_the_bricks_are_refused)
+{
+    piece_clay p;
+    recorded r;
+    record(&p.c, two_bricks, &r);
+    std::vector<uint8_t> b = r.bytes();
+    b.resize(b.size() + 16);
+    byte_order_put_u64(&b[56], 4);
+    byte_order_put_u64(&b[64], b.size());
+    EXPECT_EQ(check(resealed(b), "the number of corners"), STATUS_CORRUPT);
 }
 
 TEST(undo_file, lowest_and_highest_brick_of_the_lattice_pass)

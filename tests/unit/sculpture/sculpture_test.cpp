@@ -245,6 +245,8 @@ TEST_F(sculpture_door, a_surface_without_room_refuses_undo_and_redo)
     stroke(ACTION_TOOTHPASTE, dab_at(7.5, 7.5, 7.5, 6, 3));
     const uint64_t digest = sculpture_digest(s.get());
     ASSERT_EQ(sculpture_undo(s.get()), STATUS_OK);
+    close();
+    open(true, 8); /* so that its pool has yet to be used */
     s->surface.patches.limit = 2;
     EXPECT_EQ(sculpture_redo(s.get()), STATUS_POOL_FULL);
     EXPECT_EQ(s->clay.corners, 0u);

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
@@ -115,12 +116,17 @@ TEST_F(storage_on_disk, names_cannot_lead_elsewhere)
 TEST_F(storage_on_disk, only_regular_files_are_touched)
 {
     fs::create_directory(path + "/folder");
-    fs::create_symlink("/dev/null", path + "/link");
-    char b;
-    size_t count;
-    EXPECT_NE(put("folder", "x"), 0);
-    EXPECT_NE(put("link", "x"), 0);
-    EXPECT_NE(storage_read(&s, "link", 0, &b, 1, &count), 0);
+    std::ofstream(path + "/target") << "mine";
+    fs::create_symlink(path + "/target", path + "/link");
+    ASSERT_EQ(mkfifo((path + "/pipe").c_str(), 0600), 0);
+    for (const char *name : {"folder", "link", "pipe"}) {
+        char b;
+        size_t count;
+        EXPECT_NE(put(name, "x"), 0) << name;
+        EXPECT_NE(storage_read(&s, name, 0, &b, 1, &count), 0) << name;
+        EXPECT_NE(storage_sync(&s, name), 0) << name;
+    }
+    EXPECT_EQ(on_disk("target"), "mine");
     EXPECT_NE(storage_remove(&s, "folder"), 0);
 }
 

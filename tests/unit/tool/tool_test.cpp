@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace {
@@ -100,8 +101,12 @@ TEST_F(tool_dabs, of_bad_amount_or_action_are_refused)
     for (double bad : {-0.001, std::nan(""), std::numeric_limits<double>::infinity(), 1.1 * TOOL_AMOUNT_MAX})
         for (action a : all_actions)
             expect_refused(make(a), dab_at(0, 0, 0, 5, bad), STATUS_BAD_PARAMETER);
-    for (int bad : {-1, static_cast<int>(ACTION_COUNT)})
-        expect_refused(make(static_cast<action>(bad)), dab_at(0, 0, 0, 5, 1), STATUS_BAD_PARAMETER);
+    for (int bad : {-1, static_cast<int>(ACTION_COUNT), 1000}) {
+        tool t = make(ACTION_ERASER);
+        static_assert(sizeof t.kind == sizeof bad);
+        std::memcpy(&t.kind, &bad, sizeof bad); /* as damaged settings would; C++ may not say it any other way */
+        expect_refused(t, dab_at(0, 0, 0, 5, 1), STATUS_BAD_PARAMETER);
+    }
     EXPECT_EQ(apply(make(ACTION_TOOTHPASTE), dab_at(0, 0, 0, 5, TOOL_AMOUNT_MAX)), STATUS_OK);
     EXPECT_TRUE(clay_is_valid(&c));
 }
@@ -138,7 +143,7 @@ TEST_F(tool_dabs, at_the_ends_of_the_lattice_stay_inside)
 }
 
 /* The dab reaches 27 bricks. Toothpaste and stamp fill them all, 26 of them new; smooth writes only the one with clay but
-   marks all 27, and a clay has two marks a brick, one of which it keeps for each image. */
+   marks all 27, and a clay has two marks a brick to give. */
 TEST_F(tool_dabs, without_room_are_refused_whole)
 {
     const tool_dab wide = dab_at(4, 4, 4, 11, 1);

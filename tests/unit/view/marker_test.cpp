@@ -116,14 +116,15 @@ TEST_F(view_marker, what_clay_hides_of_the_tool_is_fainter)
 
 TEST_F(view_marker, a_ring_shows_where_the_tool_meets_the_clay)
 {
-    const double clay_radius = 24, tool_radius = 12;
+    /* the tool's middle lies behind the clay's, so that its outline and the ring are far apart in the picture */
+    const double clay_radius = 24, tool_radius = 31, tool_z = -10;
     view_stage_piece piece;
     piece.ball({0, 0, 0}, clay_radius, view_stage_rgba(90, 60, 50));
     update(piece);
-    snapshot s = with_tool(0, 0, clay_radius, tool_radius);
+    snapshot s = with_tool(0, 0, tool_z, tool_radius);
     const view_stage_picture none = draw(without_tool(s)), p = draw(s);
     /* the two spheres meet in a circle at this height, of this radius */
-    const double z = clay_radius - tool_radius * tool_radius / (2 * clay_radius);
+    const double z = (tool_radius * tool_radius - clay_radius * clay_radius - tool_z * tool_z) / (-2 * tool_z);
     const double ring = std::sqrt(clay_radius * clay_radius - z * z);
     const double pixels = focal_pixels(s) * ring / (s.camera_distance - z);
     int marked = 0;
@@ -166,11 +167,15 @@ TEST_F(view_marker, the_pedal_shows_unless_the_tool_is_hidden)
 
 TEST_F(view_marker, a_mirrored_tool_looks_like_its_image)
 {
-    snapshot s = with_tool(0, 0, 0, 20);
+    view_stage_piece form;
+    form.ball({0, 0, 14}, 10, view_stage_rgba(255, 255, 255));
+    form.ball({0, 0, -14}, 10, view_stage_rgba(255, 255, 255));
+    snapshot s = with_tool(0, 0, 0, 1);
+    s.tool_surface = &form.it->surface;
     s.tool_style = SNAPSHOT_TOOL_TRANSPARENT;
     const view_stage_picture p = draw(s);
     s.tool_world.axis[0][0] = -s.tool_world.axis[0][0];
-    EXPECT_LE(draw(s).changed(p, 6), 8) << "a ball is its own mirror image, its near side stays near";
+    EXPECT_LE(draw(s).changed(p, 6), 8) << "two balls, one behind the other: only the near side of the near one is blended";
 }
 
 TEST_F(view_marker, a_flat_tool_is_not_drawn)

@@ -7,6 +7,7 @@
 
 #include "view/upload.h"
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
@@ -184,6 +185,20 @@ TEST_F(view_upload, a_full_page_is_followed_by_another)
             owner[slot.page * UPLOAD_UNITS + static_cast<size_t>(slot.first + n)]++;
     for (int n : owner)
         EXPECT_LE(n, 1) << "no unit has two patches";
+
+    /* room that comes free in a page that was full is found again */
+    for (uint32_t n = 0; n < 10; n++)
+        s.at(n)->triangle_count = 0;
+    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+    EXPECT_EQ(u.counts.held, count - 10);
+    for (uint32_t n = 0; n < 10; n++)
+        s.at(n)->triangle_count = 1;
+    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+    for (uint32_t n = 0; n < 10; n++) {
+        EXPECT_EQ(u.slots[n].page, 0u);
+        EXPECT_LT(u.slots[n].first, 20);
+    }
+    EXPECT_EQ(u.pages[1].top, 20);
     upload_finish(&u);
 }
 
@@ -213,11 +228,22 @@ TEST_F(view_upload, freed_units_are_used_again)
     upload_finish(&u);
 }
 
-/* Pixels of two layers over each other differ from those of one: each side of a triangle may be drawn only once. */
+/* The order of vertices within a patch is the patch's own affair. */
+void turn_vertices_round(patch *p)
+{
+    std::reverse(p->vertices, p->vertices + p->vertex_count);
+    for (uint32_t t = 0; t < p->triangle_count; t++)
+        for (uint16_t &v : p->triangles[t])
+            v = static_cast<uint16_t>(p->vertex_count - 1 - v);
+}
+
+/* Lines are blended: a side drawn twice would show. */
 TEST_F(view_upload, a_freeforms_sides_are_each_drawn_once)
 {
     view_stage_piece piece;
     piece.ball({4, 4, 4}, 12, view_stage_rgba(255, 255, 255));
+    for (uint32_t n = 0; n < surface_slots(&piece.it->surface); n += 2)
+        turn_vertices_round(static_cast<patch *>(pool_at(&piece.it->surface.patches, n)));
     upload u;
     upload_init(&u, true);
     ASSERT_TRUE(upload_update(&u, &piece.it->surface, &trouble)) << trouble;

@@ -277,6 +277,7 @@ TEST_F(view_picture, sizes_that_cannot_be_are_refused_in_words)
         trouble.clear();
         EXPECT_FALSE(view_draw(it, s, size[0], size[1], &trouble));
         EXPECT_NE(trouble.find(std::to_string(size[0]) + " x " + std::to_string(size[1])), std::string::npos) << trouble;
+        EXPECT_NE(trouble.find("each side must be 1 to "), std::string::npos) << trouble;
         std::vector<uint8_t> pixels;
         trouble.clear();
         EXPECT_FALSE(view_pixels(it, &pixels, &trouble)) << "there is no picture now";
@@ -314,9 +315,12 @@ TEST_F(view_picture, snapshots_that_cannot_be_are_refused_in_words)
     };
     for (const wrong &w : all) {
         snapshot s = plain();
+        draw(s);
         w.break_it(&s);
         EXPECT_FALSE(view_draw(it, s, width, height, &trouble));
         EXPECT_NE(trouble.find(w.word), std::string::npos) << trouble;
+        std::vector<uint8_t> pixels;
+        EXPECT_FALSE(view_pixels(it, &pixels, &trouble)) << "the picture before is not passed off as this one";
     }
 }
 

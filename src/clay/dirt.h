@@ -37,7 +37,10 @@ STATUS_CHECKED status dirt_mark(dirt *d, key brick_at, const brick_mask *corners
 
 static inline uint32_t dirt_count(const dirt *d) { return d->entries.count; }
 static inline uint32_t dirt_room(const dirt *d) { return pool_room(&d->entries); }
-static inline const dirt_entry *dirt_at(const dirt *d, uint32_t n) { return (const dirt_entry *)pool_at(&d->entries, n); }
+static inline const dirt_entry *dirt_at(const dirt *d, uint32_t n)
+{
+    return (const dirt_entry *)pool_at(&d->entries, n);
+}
 
 #ifdef __cplusplus
 }

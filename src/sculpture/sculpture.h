@@ -60,15 +60,17 @@ typedef struct sculpture_counts {
 } sculpture_counts;
 
 /* store NULL: no history. bricks, ring: limits (CAPACITY_BRICKS, HISTORY_RING_DEFAULT). */
-STATUS_CHECKED status sculpture_open(sculpture *s, const byte_store *store, uint32_t bricks, uint32_t ring, double step_mm,
-                                     history_finding *finding_out);
+STATUS_CHECKED status sculpture_open(sculpture *s, const byte_store *store, uint32_t bricks, uint32_t ring,
+                                     double step_mm, history_finding *finding_out);
 /* Writes a checkpoint when there is a store and something changed. The struct is finished whatever the answer. */
 STATUS_CHECKED status sculpture_close(sculpture *s);
 
 void sculpture_stroke_begin(sculpture *s);
-STATUS_CHECKED status sculpture_apply(sculpture *s, const tool *t, const sculpture_dab *d, sculpture_counts *counts_out);
+STATUS_CHECKED status sculpture_apply(sculpture *s, const tool *t, const sculpture_dab *d,
+                                      sculpture_counts *counts_out);
 /* The two halves of sculpture_apply, for those who time them apart: the field, then the surface. */
-STATUS_CHECKED status sculpture_apply_field(sculpture *s, const tool *t, const sculpture_dab *d, tool_counts *counts_out);
+STATUS_CHECKED status sculpture_apply_field(sculpture *s, const tool *t, const sculpture_dab *d,
+                                            tool_counts *counts_out);
 STATUS_CHECKED status sculpture_apply_surface(sculpture *s, surface_counts *counts_out);
 STATUS_CHECKED status sculpture_stroke_end(sculpture *s);
 
@@ -83,7 +85,8 @@ STATUS_CHECKED status sculpture_clear(sculpture *s);
 /* Native file: the whole field. Reading replaces the clay whole as one stroke, or not at all; a step other than the
    sculpture's is STATUS_BAD_PARAMETER unless the sculpture is empty and keeps no history (then it takes the step). */
 STATUS_CHECKED status sculpture_write(const sculpture *s, checkpoint_sink sink, void *self);
-STATUS_CHECKED status sculpture_read(sculpture *s, checkpoint_source source, void *self, checkpoint_trouble *trouble_out);
+STATUS_CHECKED status sculpture_read(sculpture *s, checkpoint_source source, void *self,
+                                     checkpoint_trouble *trouble_out);
 
 /* Field and step. The mesh's own is surface_digest(&s->surface). */
 uint64_t sculpture_digest(const sculpture *s);

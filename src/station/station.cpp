@@ -232,7 +232,8 @@ void mouse_move(station *s, double dx, double dy, double wheel)
     if (what == MOVED_SCENE) /* virtual trackball */
         thing_move(s, what, {0, 0, 0}, {dy * MOUSE_RADIANS_A_PIXEL, dx * MOUSE_RADIANS_A_PIXEL, 0});
     else
-        thing_move(s, what, {dx * MOUSE_PART_A_PIXEL * mm, -dy * MOUSE_PART_A_PIXEL * mm, wheel * WHEEL_PART_A_NOTCH * mm},
+        thing_move(s, what,
+                   {dx * MOUSE_PART_A_PIXEL * mm, -dy * MOUSE_PART_A_PIXEL * mm, wheel * WHEEL_PART_A_NOTCH * mm},
                    {0, 0, 0});
     if (what == MOVED_SCENE)
         s->shown.camera_distance = std::clamp(mm * (1 - wheel * WHEEL_PART_A_NOTCH), 0.1, 1e6);

@@ -28,7 +28,8 @@ stroke stroke_begin(const motion_pose &now) { return {now, 0, true}; }
 
 void stroke_jump(stroke *s, const motion_pose &now) { s->last = now; }
 
-void stroke_step(stroke *s, const motion_pose &now, double seconds, const stroke_rule &rule, std::vector<stroke_dab> *out)
+void stroke_step(stroke *s, const motion_pose &now, double seconds, const stroke_rule &rule,
+                 std::vector<stroke_dab> *out)
 {
     s->waiting_s += seconds;
     double moved = moved_mm(*s, now, rule);

@@ -40,7 +40,8 @@ stroke stroke_begin(const motion_pose &now);
 /* The tool was put elsewhere without moving through space: no dabs on the way. */
 void stroke_jump(stroke *s, const motion_pose &now);
 /* `seconds` went by and the tool is at `now`; appends the dabs that became due. */
-void stroke_step(stroke *s, const motion_pose &now, double seconds, const stroke_rule &rule, std::vector<stroke_dab> *out);
+void stroke_step(stroke *s, const motion_pose &now, double seconds, const stroke_rule &rule,
+                 std::vector<stroke_dab> *out);
 /* The last part of the path. */
 void stroke_end(stroke *s, const motion_pose &now, const stroke_rule &rule, std::vector<stroke_dab> *out);
 

@@ -51,7 +51,8 @@ static bool evaluate(const tool *t, const action_setting *set, const walk *w, to
 }
 
 /* First pass: which bricks, with what potential of the tool. */
-static status gather(const tool *t, const action_setting *set, const walk *w, tool_scratch *scratch, tool_counts *counts)
+static status gather(const tool *t, const action_setting *set, const walk *w, tool_scratch *scratch,
+                     tool_counts *counts)
 {
     pool_clear(&scratch->pages);
     scratch->used = 0;

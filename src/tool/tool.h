@@ -55,7 +55,8 @@ typedef struct tool_scratch {
 STATUS_CHECKED status tool_scratch_init(tool_scratch *s, uint32_t bricks);
 void tool_scratch_finish(tool_scratch *s);
 
-STATUS_CHECKED status tool_apply(const tool *t, const tool_dab *d, clay *c, tool_scratch *scratch, tool_counts *counts_out);
+STATUS_CHECKED status tool_apply(const tool *t, const tool_dab *d, clay *c, tool_scratch *scratch,
+                                 tool_counts *counts_out);
 
 #ifdef __cplusplus
 }

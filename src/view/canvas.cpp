@@ -30,7 +30,8 @@ bool fits(int width, int height, std::string *trouble_out)
                          integer(GL_MAX_TEXTURE_SIZE), viewport[0], viewport[1]});
     std::string size = std::to_string(width) + " x " + std::to_string(height);
     if (width < 1 || height < 1 || width > side || height > side) {
-        *trouble_out = "a picture of " + size + " pixels cannot be drawn: each side must be 1 to " + std::to_string(side);
+        *trouble_out =
+            "a picture of " + size + " pixels cannot be drawn: each side must be 1 to " + std::to_string(side);
         return false;
     }
     if (int64_t{width} * height > CANVAS_PIXELS_MAX) {
@@ -96,7 +97,8 @@ bool canvas_size(canvas *c, int width, int height, std::string *trouble_out)
     GLenum error = glGetError();
     if (complete && error == GL_NO_ERROR)
         return true;
-    *trouble_out = "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be drawn: " +
+    *trouble_out = "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels cannot be drawn: " +
                    (error == GL_OUT_OF_MEMORY ? "the device has no memory for it" : "the device refuses its format");
     canvas_close(c);
     return false;

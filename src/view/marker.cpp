@@ -354,7 +354,8 @@ void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, c
     begin_blending();
     const tool_geometry geometry = {&m, patches, glm::determinant(glm::dmat3(eye_from_tool)) < 0};
     if (s.tool_style == SNAPSHOT_TOOL_WIREFRAME) {
-        const float width = line_width_at_1080 * static_cast<float>(height) / 1080 * (s.tool_working ? line_width_working : 1);
+        const float width =
+            line_width_at_1080 * static_cast<float>(height) / 1080 * (s.tool_working ? line_width_working : 1);
         glLineWidth(std::clamp(width, 1.0f, m.line_width_max));
         draw_wire(program, geometry, s, thinned(geometry, s, eye_from_tool, height));
         glLineWidth(1);

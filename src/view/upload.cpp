@@ -221,7 +221,8 @@ size_t parts(size_t n, size_t each) { return (n + each - 1) / each; }
 
 int units_for(const upload &u, const patch &p)
 {
-    size_t units = std::max(parts(p.vertex_count, UPLOAD_UNIT_VERTICES), parts(p.triangle_count, UPLOAD_UNIT_TRIANGLES));
+    size_t units =
+        std::max(parts(p.vertex_count, UPLOAD_UNIT_VERTICES), parts(p.triangle_count, UPLOAD_UNIT_TRIANGLES));
     if (u.with_lines)
         units = std::max(units, parts(line_count(p), UPLOAD_UNIT_LINES));
     return static_cast<int>(units);

@@ -14,11 +14,13 @@ constexpr int PICTURE_SIDE_MAX_PIXELS = 8192;
 
 std::string commands_text()
 {
-    std::string out = "A tape is plain text: \"glaise tape 1\", then lines such as \"@1500 place 0 10 0\" (at 1500 ms) or\n"
-                      "\"+40 apply down\" (40 ms later). \"step MM\" before the first sets the lattice. Commands:\n";
+    std::string out =
+        "A tape is plain text: \"glaise tape 1\", then lines such as \"@1500 place 0 10 0\" (at 1500 ms) or\n"
+        "\"+40 apply down\" (40 ms later). \"step MM\" before the first sets the lattice. Commands:\n";
     for (const command_form &form : command_forms()) {
         std::string usage = command_usage(form);
-        out += "  " + usage + std::string(usage.size() < 38 ? 38 - usage.size() : 1, ' ') + std::string(form.does) + "\n";
+        out +=
+            "  " + usage + std::string(usage.size() < 38 ? 38 - usage.size() : 1, ' ') + std::string(form.does) + "\n";
         for (const command_argument &a : form.arguments)
             if (a.kind == COMMAND_WORD && a.words.size() > 2) {
                 out += std::string(42, ' ') + a.name + ":";
@@ -56,7 +58,9 @@ void replay_options(CLI::App *app, arguments *a)
     app->add_option("--store", a->store, "folder that keeps the sculpture and its undo-files; made when absent");
     app->add_option("--png", a->picture, "writes a picture of the end");
     app->add_option("--pictures", a->pictures, "folder for the pictures the tape asks for");
-    app->add_option("--export", a->exports, "writes the end as a file: " + exchange_endings())->take_all()->allow_extra_args(false);
+    app->add_option("--export", a->exports, "writes the end as a file: " + exchange_endings())
+        ->take_all()
+        ->allow_extra_args(false);
     app->add_option("--stats", a->statistics, "writes counts, times and digests of every dab as JSON");
     app->add_option("--record", a->record, "writes everything that was done as a tape");
     app->add_option("--step", a->step_mm, "step of the lattice in mm, instead of the tape's")
@@ -76,7 +80,8 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
     app.set_version_flag("--version", "glaise " GLAISE_VERSION);
     app.footer(commands_text());
     app.require_subcommand(1);
-    CLI::App *run = app.add_subcommand("run", "starts the station; with no display, replays the demonstration into out/");
+    CLI::App *run =
+        app.add_subcommand("run", "starts the station; with no display, replays the demonstration into out/");
     run->add_option("OUT", a.pictures, "folder for what the demonstration makes")->default_str("out");
     CLI::App *replay = app.add_subcommand("replay", "replays a tape");
     replay_options(replay, &a);

@@ -23,8 +23,8 @@ struct playlist {
                                  std::string *text_out);
 /* The commands that a hid-recorder file amounts to: its first six-axis device becomes puck `device`, the next one
    after it. */
-[[nodiscard]] bool playlist_decode(const std::string &recording, int device, int64_t start_us, std::vector<command> *out,
-                                   std::string *text_out);
+[[nodiscard]] bool playlist_decode(const std::string &recording, int device, int64_t start_us,
+                                   std::vector<command> *out, std::string *text_out);
 /* A whole file; text_out says why not. */
 [[nodiscard]] bool playlist_file(const std::string &path, std::string *bytes_out, std::string *text_out);
 

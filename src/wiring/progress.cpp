@@ -15,7 +15,8 @@ void bar_draw(const progress &p, double part, const std::string &note)
     std::string bar;
     for (int n = 0; n < BAR_CELLS; n++)
         bar += n < full ? "\u2588" : "\u2591";
-    std::fprintf(stderr, "\r\033[K%s %s %3d %%  %s", p.what.c_str(), bar.c_str(), static_cast<int>(part * 100), note.c_str());
+    std::fprintf(stderr, "\r\033[K%s %s %3d %%  %s", p.what.c_str(), bar.c_str(), static_cast<int>(part * 100),
+                 note.c_str());
 }
 
 } // namespace

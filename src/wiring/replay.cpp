@@ -119,7 +119,8 @@ void picture_take(performance *p, const std::string &path)
     }
     if (!p->scene)
         return;
-    if (stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), p->wanted->width, p->wanted->height, path, &text))
+    if (stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), p->wanted->width, p->wanted->height, path,
+                      &text))
         p->written.push_back(path);
     else
         trouble(p, path + ": " + text);
@@ -149,7 +150,8 @@ void perform(performance *p, const playlist &list)
         station_advance(p->desk, until_us);
         ask(p);
         double part = list.end_us ? static_cast<double>(until_us) / static_cast<double>(list.end_us) : 1;
-        progress_show(&bar, part, std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners",
+        progress_show(&bar, part,
+                      std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners",
                       clock_ns());
         if (until_us == list.end_us)
             break;
@@ -162,7 +164,8 @@ void perform(performance *p, const playlist &list)
             station_do(p->desk, up);
         ask(p);
     }
-    progress_end(&bar, std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners");
+    progress_end(&bar,
+                 std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners");
 }
 
 void text_export(performance *p, const std::string &path, const std::string &bytes)
@@ -291,7 +294,8 @@ static int piece_read(sculpture *piece, const std::string &path)
     s = sculpture_close(piece);
     (void)s; /* nothing is kept of it */
     bool world = outcome.state == STATUS_OK || outcome.state == STATUS_IO;
-    return complain(world ? ARGUMENTS_EXIT_TROUBLE : ARGUMENTS_EXIT_WRONG, text.empty() ? path + ": " + outcome.text : text);
+    return complain(world ? ARGUMENTS_EXIT_TROUBLE : ARGUMENTS_EXIT_WRONG,
+                    text.empty() ? path + ": " + outcome.text : text);
 }
 
 int replay_export(const arguments &a)
@@ -324,5 +328,6 @@ int replay_info(const arguments &a)
         return 0;
     }
     bool world = outcome.state == STATUS_OK || outcome.state == STATUS_IO;
-    return complain(world ? ARGUMENTS_EXIT_TROUBLE : ARGUMENTS_EXIT_WRONG, text.empty() ? a.input + ": " + outcome.text : text);
+    return complain(world ? ARGUMENTS_EXIT_TROUBLE : ARGUMENTS_EXIT_WRONG,
+                    text.empty() ? a.input + ": " + outcome.text : text);
 }

@@ -46,8 +46,10 @@ bool stage_picture(stage *s, const sculpture *piece, const snapshot &shown, int 
     if (!view_update(s->eye, piece, text_out) || !view_draw(s->eye, shown, width, height, text_out) ||
         !view_pixels(s->eye, &rgba, text_out))
         return false;
-    picture p = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), 4, rgba.data(), 4 * static_cast<ptrdiff_t>(width)};
-    return store_export(path, [&p](checkpoint_sink sink, void *self) { return picture_write(p, sink, self); }, text_out);
+    picture p = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), 4, rgba.data(),
+                 4 * static_cast<ptrdiff_t>(width)};
+    return store_export(
+        path, [&p](checkpoint_sink sink, void *self) { return picture_write(p, sink, self); }, text_out);
 }
 
 #else

@@ -34,7 +34,10 @@ status port_size(void *self, const char *name, uint64_t *bytes_out, bool *exists
     return answer(storage_size(of(self), name, bytes_out, exists_out));
 }
 
-status port_truncate(void *self, const char *name, uint64_t bytes) { return answer(storage_truncate(of(self), name, bytes)); }
+status port_truncate(void *self, const char *name, uint64_t bytes)
+{
+    return answer(storage_truncate(of(self), name, bytes));
+}
 status port_sync(void *self, const char *name) { return answer(storage_sync(of(self), name)); }
 status port_rename(void *self, const char *from, const char *to) { return answer(storage_rename(of(self), from, to)); }
 status port_remove(void *self, const char *name) { return answer(storage_remove(of(self), name)); }
@@ -68,7 +71,8 @@ store *store_open(const std::string &folder, byte_store *port_out, std::string *
     auto *s = new store;
     int error = storage_open(&s->files, folder.c_str());
     if (error != 0) {
-        *text_out = folder + ": " + (error == -EWOULDBLOCK ? "another glaise has this store open" : std::strerror(-error));
+        *text_out =
+            folder + ": " + (error == -EWOULDBLOCK ? "another glaise has this store open" : std::strerror(-error));
         delete s;
         return nullptr;
     }

@@ -161,7 +161,8 @@ void headless_close(headless *h)
             eglDestroySurface(h->egl, h->surface);
         if (h->context)
             eglDestroyContext(h->egl, h->context);
-        eglTerminate(h->egl);
+        /* No eglTerminate: it unloads the driver, whose threads and caches may outlive it. The display is the process's
+           own and is taken up again by the next open. */
     }
     memset(h, 0, sizeof *h);
 }

@@ -338,7 +338,8 @@ void do_picture(station *s, const command &c)
 {
     const auto &n = c.number;
     snapshot &v = s->shown;
-    auto index = static_cast<size_t>(n[0]);
+    /* Where the first argument is no index it may be negative, and is not used as one. */
+    auto index = static_cast<size_t>(static_cast<int64_t>(n[0]));
     switch (c.kind) {
     case COMMAND_VIEW:
         v.scene_turn = motion_about({n[0], n[1], n[2]}, radians_of(n[3]));
@@ -370,7 +371,8 @@ void do_picture(station *s, const command &c)
 void do_device(station *s, const command &c)
 {
     const auto &n = c.number;
-    auto index = static_cast<size_t>(n[0]);
+    /* Where the first argument is no index it may be negative, and is not used as one. */
+    auto index = static_cast<size_t>(static_cast<int64_t>(n[0]));
     switch (c.kind) {
     case COMMAND_PUCK:
         for (size_t a = 0; a < 6; a++)

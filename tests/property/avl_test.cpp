@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: over any sequence of inserts and removes the tree holds what a sorted map holds, in the same order, and is never
- *       higher than Adelson-Velsky and Landis allow.
+/* Goal: over any sequence of inserts and removes the tree holds what a sorted map holds, in the same order, and is
+ *       never higher than Adelson-Velsky and Landis allow.
  * Method: thousands of seeded steps that first grow, then churn, then shrink; orders that are hard on trees; every
  *         answer compared with std::map, the height with its bound after every step, all invariants at intervals. */
 #include "lattice/avl.h"

@@ -152,8 +152,10 @@ inline void plain_dab_exact_colour(plain_dab_corner &out, uint32_t rgba)
 
 inline void plain_dab_mix(plain_dab_corner &out, uint32_t from, uint32_t to, double weight, double weight_slack)
 {
-    for (int n = 0; n < 4; n++)
-        out.channel[n] = colour_channel(from, n) + weight * (static_cast<double>(colour_channel(to, n)) - colour_channel(from, n));
+    for (int n = 0; n < 4; n++) {
+        const double a = colour_channel(from, n), b = colour_channel(to, n);
+        out.channel[n] = a + weight * (b - a);
+    }
     out.dithered = true;
     out.channel_slack = 255 * weight_slack + 1e-3;
 }
@@ -189,7 +191,8 @@ inline void plain_dab_new_clay(plain_dab_corner &out, const plain_dab_round &rou
 }
 
 /* before: the whole clay as it was. dv: slack of v. */
-inline plain_dab_corner plain_dab_act(const tool &t, double amount, const plain_clay &before, key at, double v, double dv)
+inline plain_dab_corner plain_dab_act(const tool &t, double amount, const plain_clay &before, key at, double v,
+                                      double dv)
 {
     const plain_clay_corner old = plain_clay_read(before, at);
     const double f = old.potential, d = amount * v / 3, dd = amount * dv / 3 + 1e-6 * d, part = std::min(amount, 1.0);
@@ -224,7 +227,8 @@ inline plain_dab_corner plain_dab_act(const tool &t, double amount, const plain_
     case ACTION_PRINT: {
         const double def = plain_dab_def(t.def, 3 - v), by = t.kind == ACTION_PRINT ? f : 1;
         out.potential = f + part * def * by;
-        out.slack = part * by * (plain_dab_def_slope_max(t.def) * dv + 4e-6 * (1 + t.def.n) / std::min(t.def.m, t.def.r)) + 2e-6;
+        const double rounding = 4e-6 * (1 + t.def.n) / std::min(t.def.m, t.def.r);
+        out.slack = part * by * (plain_dab_def_slope_max(t.def) * dv + rounding) + 2e-6;
         if (!(f > 0))
             plain_dab_new_clay(out, plain_dab_look_round(before, at), t.rgba);
         break;

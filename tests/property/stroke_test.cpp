@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: the master test through the door. Whatever a person does with any tool, the surface they see is the surface of the
- *       clay they have, vertex for vertex; it is closed and faces outwards; undo is the piece before the stroke, redo
- *       the piece after it, and opening again finds it.
+/* Goal: the master test through the door. Whatever a person does with any tool, the surface they see is the surface of
+ *       the clay they have, vertex for vertex; it is closed and faces outwards; undo is the piece before the stroke,
+ *       redo the piece after it, and opening again finds it.
  * Method: seeded strokes of one to five dabs, every action, every shape (tools duplicated from the piece among them);
  *         after each dab the surface against one made from nothing; at intervals the treated cubes and the whole
  *         surface against counting corner by corner (mesh_oracle.h), the mesh, and the store. GLAISE_LONG: twenty

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: a dab of any action, shape and pose does to the clay what the definitions say, counts what it visited, computed and
- *       dirtied, marks exactly what it dirtied, and touches nothing else.
+/* Goal: a dab of any action, shape and pose does to the clay what the definitions say, counts what it visited, computed
+ *       and dirtied, marks exactly what it dirtied, and touches nothing else.
  * Method: thousands of seeded dabs in a row; after each the walked box is compared, corner by corner, with plain_dab.h
  *         applied to the clay as it was, the rest at intervals; every invariant of the clay each time. */
 #include "tool/freeform.h"
@@ -132,7 +132,7 @@ bool is_marked(const clay &c, key at)
     return id != POOL_NONE && brick_mask_has(&dirt_at(&c.dirty, id)->corners, key_slot(at));
 }
 
-/* Is there surely a contribution, surely none? Amounts of nothing count as none, except where an action asks no amount. */
+/* Is there surely a contribution? Amounts of nothing count as none, except where an action asks no amount. */
 bool surely_contributes(const tool &t, double amount, double v, double dv)
 {
     if (v <= dv)
@@ -177,8 +177,8 @@ void expect_corner(bench &b, const tool &t, const plain_dab_shape &shape, const 
         ASSERT_TRUE(plain_dab_is(wanted, found, colour_dither(at, d.number)))
             << "v " << v << " +- " << dv << ": " << old.potential << " became " << found.potential << " not "
             << wanted.potential << " +- " << wanted.slack << ", colour " << std::hex << old.rgba << " became "
-            << found.rgba << std::dec << " not " << wanted.channel[0] << " " << wanted.channel[1] << " " << wanted.channel[2]
-            << " " << wanted.channel[3] << " +- " << wanted.channel_slack;
+            << found.rgba << std::dec << " not " << wanted.channel[0] << " " << wanted.channel[1] << " "
+            << wanted.channel[2] << " " << wanted.channel[3] << " +- " << wanted.channel_slack;
     }
 }
 

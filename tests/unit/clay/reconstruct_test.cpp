@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: between corners the field, its colour and its gradient are the tri-linear ones, across brick borders, at the ends
- *       of the lattice, and whatever the cursor was asked before.
+/* Goal: between corners the field, its colour and its gradient are the tri-linear ones, across brick borders, at the
+ *       ends of the lattice, and whatever the cursor was asked before.
  * Method: each answer against the eight-corner formula in doubles, on clay read one corner at a time. */
 #include "clay/reconstruct.h"
 

@@ -107,8 +107,10 @@ TEST(key_add, moves_each_axis_by_its_own_step)
     const key moved = key_add({10, 20, 30}, -1, 2, -3);
     EXPECT_TRUE(key_equal(moved, {9, 22, 27}));
     /* A cube's far corner, and a brick's, are keys at both ends of the range. */
-    EXPECT_TRUE(key_equal(key_add({KEY_MAX, KEY_MAX, KEY_MAX}, 8, 8, 8), {INT32_MAX - 8, INT32_MAX - 8, INT32_MAX - 8}));
-    EXPECT_TRUE(key_equal(key_add({KEY_MIN, KEY_MIN, KEY_MIN}, -8, -8, -8), {INT32_MIN + 8, INT32_MIN + 8, INT32_MIN + 8}));
+    const key beyond = key_add({KEY_MAX, KEY_MAX, KEY_MAX}, 8, 8, 8);
+    const key before = key_add({KEY_MIN, KEY_MIN, KEY_MIN}, -8, -8, -8);
+    EXPECT_TRUE(key_equal(beyond, {INT32_MAX - 8, INT32_MAX - 8, INT32_MAX - 8}));
+    EXPECT_TRUE(key_equal(before, {INT32_MIN + 8, INT32_MIN + 8, INT32_MIN + 8}));
 }
 
 } // namespace

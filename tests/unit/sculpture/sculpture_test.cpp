@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: the door keeps its word: millimetres and seconds outside, steps and amounts inside; whatever is refused leaves clay,
- *       surface and history as before; what was ended comes back by undo, redo and opening again.
+/* Goal: the door keeps its word: millimetres and seconds outside, steps and amounts inside; whatever is refused leaves
+ *       clay, surface and history as before; what was ended comes back by undo, redo and opening again.
  * Method: against the rooms behind the door used by hand; a byte store in memory that fails on demand; a clay so small
  *         that its surface does not fit. */
 #include "sculpture/sculpture.h"
@@ -125,9 +125,10 @@ frame frame_of(const row &r)
         const double u[3] = {r.turn[0] * scale, r.turn[1] * scale, r.turn[2] * scale};
         const double e[3] = {a == 0 ? 1.0 : 0, a == 1 ? 1.0 : 0, a == 2 ? 1.0 : 0};
         f.origin[a] = r.centre[a];
-        for (int n = 0; n < 3; n++)
-            f.axis[a][n] = r.radius * (c * e[n] + s * (u[(n + 1) % 3] * e[(n + 2) % 3] - u[(n + 2) % 3] * e[(n + 1) % 3]) +
-                                       (1 - c) * u[a] * u[n]);
+        for (int n = 0; n < 3; n++) {
+            const int p = (n + 1) % 3, q = (n + 2) % 3;
+            f.axis[a][n] = r.radius * (c * e[n] + s * (u[p] * e[q] - u[q] * e[p]) + (1 - c) * u[a] * u[n]);
+        }
     }
     return f;
 }

@@ -224,6 +224,15 @@ TEST_F(storage_on_disk, rename_replaces_and_is_synced)
     EXPECT_EQ(on_disk("old"), "n3w") << "not the file that was replaced";
 }
 
+TEST_F(storage_on_disk, file_from_before_is_synced_before_it_is_renamed)
+{
+    std::ofstream(path + "/a") << "old";
+    ASSERT_EQ(put("a", "new"), 0);
+    failing_system_reset();
+    ASSERT_EQ(storage_rename(&s, "a", "b"), 0);
+    EXPECT_EQ(failing_system.file_syncs, 1);
+}
+
 TEST_F(storage_on_disk, removed_is_gone_and_its_name_free)
 {
     ASSERT_EQ(put("a", "long text"), 0);
@@ -300,6 +309,17 @@ TEST_F(storage_on_disk, spoilt_files_keep_their_places)
     ASSERT_EQ(storage_remove(&s, "f3"), 0);
     EXPECT_EQ(put("one-more", "x"), 0);
     EXPECT_EQ(put("f4", "x"), -EIO);
+}
+
+TEST_F(storage_on_disk, spoilt_file_does_not_stand_in_the_way_of_others)
+{
+    ASSERT_EQ(put("a", "x"), 0);
+    failing_system.sync_error = EIO;
+    ASSERT_EQ(storage_sync(&s, "a"), -EIO);
+    failing_system_reset();
+    for (int n = 0; n < 2 * STORAGE_OPEN_MAX; n++)
+        ASSERT_EQ(put(("f" + std::to_string(n)).c_str(), "x"), 0);
+    EXPECT_EQ(put("a", "x"), -EIO) << "still known to be spoilt";
 }
 
 } // namespace

@@ -49,7 +49,8 @@ double slope(const float p[4], double u) { return (3.0 * p[0] * u + 2.0 * p[1]) 
 /* What rounding the coefficients to floats can do to a value, and to a slope. */
 double slack(const float p[4], double u)
 {
-    return 2e-7 * (std::fabs(p[0] * u * u * u) + std::fabs(p[1] * u * u) + std::fabs(p[2] * u) + std::fabs(p[3])) + 1e-9;
+    const double cubic = std::fabs(p[0] * u * u * u), square = std::fabs(p[1] * u * u);
+    return 2e-7 * (cubic + square + std::fabs(p[2] * u) + std::fabs(p[3])) + 1e-9;
 }
 
 TEST(deform, meets_its_values_and_slopes_at_every_joint)
@@ -92,7 +93,8 @@ TEST(deform, at_is_continuous_with_its_slope)
         double bend = 0;
         for (int p = 0; p < 3; p++) {
             const double length = p == 0 ? s : p == 1 ? t.m : t.r;
-            bend = std::max({bend, std::fabs(2.0 * d.piece[p][1]), std::fabs(6.0 * d.piece[p][0] * length + 2.0 * d.piece[p][1])});
+            const double first = 2.0 * d.piece[p][1], last = 6.0 * d.piece[p][0] * length + first;
+            bend = std::max({bend, std::fabs(first), std::fabs(last)});
         }
         const double h = 1e-3;
         for (double joint : {s, s + t.m, s + t.m + t.r}) {

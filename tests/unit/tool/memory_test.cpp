@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: when the machine gives no more memory, at whichever allocation, the dab or write is refused and the clay is as it
- *       was, valid, and works again once there is memory.
+/* Goal: when the machine gives no more memory, at whichever allocation, the dab or copy is refused and the clay is as
+ *       it was, valid, and works again once there is memory.
  * Method: in a child process whose address space is limited to what it has plus so many bytes, more each time, until
  *         the work fits. */
 #include "clay/capacity.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: a dab does all of its work or none of it; it works at the ends of the lattice; dabs apart do not care about their
- *       order; and what the actions promise over many dabs holds on real clay.
+/* Goal: a dab does all of its work or none of it; it works at the ends of the lattice; dabs apart do not care about
+ *       their order; and what the actions promise over many dabs holds on real clay.
  * Method: each refusal with the digest before and after; many dabs in a row with the numbers derived for them. */
 #include "tool/tool.h"
 
@@ -41,7 +41,10 @@ protected:
         tool_scratch_finish(&scratch);
         clay_finish(&c);
     }
-    tool make(action kind, uint32_t rgba = 0xFF336699u) { return {ellipsoid_shape(&ball), kind, rgba, deform_default()}; }
+    tool make(action kind, uint32_t rgba = 0xFF336699u)
+    {
+        return {ellipsoid_shape(&ball), kind, rgba, deform_default()};
+    }
     status apply(const tool &t, const tool_dab &d)
     {
         const status s = tool_apply(&t, &d, &c, &scratch, &counts);
@@ -142,8 +145,8 @@ TEST_F(tool_dabs, at_the_ends_of_the_lattice_stay_inside)
         }
 }
 
-/* The dab reaches 27 bricks. Toothpaste and stamp fill them all, 26 of them new; smooth writes only the one with clay but
-   marks all 27, and a clay has two marks a brick to give. */
+/* The dab reaches 27 bricks. Toothpaste and stamp fill them all, 26 of them new; smooth writes only the one with clay
+   but marks all 27, and a clay has two marks a brick to give. */
 TEST_F(tool_dabs, without_room_are_refused_whole)
 {
     const tool_dab wide = dab_at(4, 4, 4, 11, 1);
@@ -241,8 +244,10 @@ TEST_F(tool_dabs, of_toothpaste_grow_as_derived)
 TEST_F(tool_dabs, of_soft_paint_arrive_exactly_and_never_leave_the_span)
 {
     const uint32_t from = colour_pack(10, 250, 128, 255), to = colour_pack(200, 3, 127, 255);
-    for (int n = 0; n < 512; n++)
-        ASSERT_EQ(clay_write(&c, {n >> 6, n >> 3 & 7, n & 7}, 0.5f + 2.5f * static_cast<float>(n) / 512, from), STATUS_OK);
+    for (int n = 0; n < 512; n++) {
+        const float potential = 0.5f + 2.5f * static_cast<float>(n) / 512;
+        ASSERT_EQ(clay_write(&c, {n >> 6, n >> 3 & 7, n & 7}, potential, from), STATUS_OK);
+    }
     plain_clay before = plain_clay_of(&c);
     for (uint64_t dab = 0; dab < 9000; dab++) {
         ASSERT_EQ(apply(make(ACTION_SOFT_PAINTER, to), dab_at(3.5, 3.5, 3.5, 9, 0.02, dab)), STATUS_OK);

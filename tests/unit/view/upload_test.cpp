@@ -205,14 +205,14 @@ TEST_F(view_upload, a_full_page_is_followed_by_another)
 TEST_F(view_upload, freed_units_are_used_again)
 {
     const uint32_t count = 300;
-    hand_made s(count, 1);
+    hand_made s(count, 3);
     upload u;
     upload_init(&u, true);
     std::mt19937 random(11);
     for (int round = 0; round < 60; round++) {
         for (uint32_t n = 0; n < count; n++)
             if (random() % 4 == 0)
-                s.resize(n, 1 + random() % 160); /* one to five units: 900 of 2,048 at the mean */
+                s.resize(n, 3 + random() % 158); /* one to five units: 900 of 2,048 at the mean */
         ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
         ASSERT_EQ(u.counts.held, count);
         for (uint32_t n = 0; n < count; n++)

@@ -33,7 +33,7 @@ typedef struct display_trouble {
 
 typedef struct display display;
 
-/* Opened displays are not current. One of a kind at a time: closing one ends what else was opened by the same way. */
+/* An opened display is not yet current. */
 DISPLAY_CHECKED display *display_open(display_kind kind, display_trouble *trouble_out);
 /* On the calling thread; at most one thread has it at a time. */
 DISPLAY_CHECKED bool display_make_current(display *d, display_trouble *trouble_out);

@@ -9,8 +9,8 @@
 
 namespace {
 
-enum moved_thing { MOVED_NOTHING, MOVED_SCENE, MOVED_TOOL, MOVED_LIGHT0 };
-enum meaning { MEANS_NOTHING, MEANS_APPLY, MEANS_UNDO, MEANS_REDO, MEANS_CLUTCH, MEANS_NEXT_ACTION };
+enum moved_thing : int { MOVED_NOTHING, MOVED_SCENE, MOVED_TOOL, MOVED_LIGHT0 };
+enum meaning : int { MEANS_NOTHING, MEANS_APPLY, MEANS_UNDO, MEANS_REDO, MEANS_CLUTCH, MEANS_NEXT_ACTION };
 
 constexpr int PUCKS = 8, PEDALS = 8, BUTTONS = 32;
 constexpr double CAMERA_AT_REST_MM = 200; /* speeds are meant at this distance and scale with it */

@@ -56,7 +56,8 @@ TEST_F(view_environment, the_map_is_mirrored_as_by_a_ball_of_metal)
         double sum = 0;
         for (int dy = -2; dy <= 2; dy++)
             for (int dx = -2; dx <= 2; dx++)
-                sum += p.light(static_cast<int>(width / 2 + x * pixels) + dx, static_cast<int>(height / 2 - y * pixels) + dy);
+                sum += p.light(static_cast<int>(width / 2 + x * pixels) + dx,
+                               static_cast<int>(height / 2 - y * pixels) + dy);
         return sum / 25;
     };
     /* the key soft box stands up left of the camera: normal half way between (0,0,1) and it */

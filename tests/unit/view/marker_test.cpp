@@ -130,7 +130,8 @@ TEST_F(view_marker, a_ring_shows_where_the_tool_meets_the_clay)
     int marked = 0;
     for (int degree = 0; degree < 360; degree++) {
         const double a = degree * M_PI / 180;
-        const int x = static_cast<int>(width / 2 + pixels * std::cos(a)), y = static_cast<int>(height / 2 - pixels * std::sin(a));
+        const int x = static_cast<int>(width / 2 + pixels * std::cos(a));
+        const int y = static_cast<int>(height / 2 - pixels * std::sin(a));
         int most = 0;
         for (int d = -1; d <= 1; d++)
             most = std::max({most, p.apart(none, x + d, y), p.apart(none, x, y + d)});
@@ -155,7 +156,8 @@ TEST_F(view_marker, the_pedal_shows_unless_the_tool_is_hidden)
         double warmer = 0;
         for (int y = 0; y < height; y++)
             for (int x = 0; x < width; x++)
-                warmer += working.linear(x, y, 0) - working.linear(x, y, 2) - idle.linear(x, y, 0) + idle.linear(x, y, 2);
+                warmer += (working.linear(x, y, 0) - working.linear(x, y, 2)) -
+                          (idle.linear(x, y, 0) - idle.linear(x, y, 2));
         EXPECT_GT(working.changed(idle), 200) << style;
         EXPECT_GT(warmer, 20) << style;
     }
@@ -175,7 +177,8 @@ TEST_F(view_marker, a_mirrored_tool_looks_like_its_image)
     s.tool_style = SNAPSHOT_TOOL_TRANSPARENT;
     const view_stage_picture p = draw(s);
     s.tool_world.axis[0][0] = -s.tool_world.axis[0][0];
-    EXPECT_LE(draw(s).changed(p, 6), 8) << "two balls, one behind the other: only the near side of the near one is blended";
+    EXPECT_LE(draw(s).changed(p, 6), 8)
+        << "two balls, one behind the other: only the near side of the near one is blended";
 }
 
 TEST_F(view_marker, a_flat_tool_is_not_drawn)

@@ -66,7 +66,8 @@ TEST(projection, near_and_far_just_hold_the_balls)
 TEST(projection, balls_at_infinity_are_not_held)
 {
     const projection_ball good = {{0, 0, -150}, 10};
-    const projection with = projection_make({}, 100, 100, {good, {{0, 0, -INFINITY}, 1}, {{0, 0, NAN}, 1}, {{}, INFINITY}});
+    const projection_ball endless[] = {{{0, 0, -INFINITY}, 1}, {{0, 0, NAN}, 1}, {{}, INFINITY}};
+    const projection with = projection_make({}, 100, 100, {good, endless[0], endless[1], endless[2]});
     const projection without = projection_make({}, 100, 100, {good});
     EXPECT_EQ(with.near_mm, without.near_mm);
     EXPECT_EQ(with.far_mm, without.far_mm);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: the picture shows the clay where it is, as large as it is, lit from where the lights are, in its own colours; what
- *       cannot be drawn is refused in words.
+/* Goal: the picture shows the clay where it is, as large as it is, lit from where the lights are, in its own colours;
+ *       what cannot be drawn is refused in words.
  * Method: balls of clay whose silhouette, shading and colour are known from geometry, drawn headless. What an expected
  *         pixel is comes from the camera's own arithmetic or from a second picture, never from an earlier output. */
 #include "view_stage.h"
@@ -231,7 +231,8 @@ TEST_F(view_picture, patches_join_without_pinholes)
             for (int x = width / 2 - 60; x < width / 2 + 60; x++) {
                 if (std::hypot(x - width / 2, y - height / 2) > 45)
                     continue;
-                const double round = (p.light(x - 1, y) + p.light(x + 1, y) + p.light(x, y - 1) + p.light(x, y + 1)) / 4;
+                const double beside = p.light(x - 1, y) + p.light(x + 1, y);
+                const double round = (beside + p.light(x, y - 1) + p.light(x, y + 1)) / 4;
                 ASSERT_NEAR(p.light(x, y), round, 0.04) << x << ", " << y << " turn " << turn;
             }
         }
@@ -273,10 +274,12 @@ TEST_F(view_picture, step_scales_the_piece)
 TEST_F(view_picture, sizes_that_cannot_be_are_refused_in_words)
 {
     const snapshot s = plain();
-    for (const std::array<int, 2> size : {std::array<int, 2>{0, 100}, {100, 0}, {-5, 100}, {1 << 20, 4}, {4, 1 << 20}}) {
+    const std::array<int, 2> sizes[] = {{0, 100}, {100, 0}, {-5, 100}, {1 << 20, 4}, {4, 1 << 20}};
+    for (const std::array<int, 2> size : sizes) {
         trouble.clear();
         EXPECT_FALSE(view_draw(it, s, size[0], size[1], &trouble));
-        EXPECT_NE(trouble.find(std::to_string(size[0]) + " x " + std::to_string(size[1])), std::string::npos) << trouble;
+        const std::string named = std::to_string(size[0]) + " x " + std::to_string(size[1]);
+        EXPECT_NE(trouble.find(named), std::string::npos) << trouble;
         EXPECT_NE(trouble.find("each side must be 1 to "), std::string::npos) << trouble;
         std::vector<uint8_t> pixels;
         trouble.clear();

@@ -12,12 +12,12 @@
  *         sync. STORAGE_OPEN_MAX files may be so at a time; one more syncs and closes the one that has waited longest.
  * Units   Bytes.
  * Owner   The caller owns the struct; storage_close releases the folder.
- * Errors  0, or a negative errno. -EINVAL: not a name. -EWOULDBLOCK: another storage holds the folder. Absence is a
- *         state where a function says so, else -ENOENT.
+ * Errors  0, or a negative errno. -EINVAL: not a name, or not a regular file. -EWOULDBLOCK: another storage holds
+ *         the folder. Absence is a state where a function says so, else -ENOENT.
  *         After a failed sync Linux takes the lost pages for clean, and a second sync would succeed without them. So
  *         the file is spoilt: it answers -EIO to all that touches it until it is removed or replaced by a rename.
  * Cost    A sync is one fdatasync, and one fsync of the folder when the name is new; a rename one fsync of the folder.
- * Source  PostgreSQL's and LWN's accounts of fsync errors since Linux 4.13; rename(2), fsync(2).
+ * Source  facts/devices.md section G1; rename(2), fsync(2).
  */
 
 #include <stdbool.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: knowledge flows only along the arrows of the design's section "Rooms"; a sibling, an upward or a sideways
- *       include is an error.
+ *       include is an error. And what a file uses of the standard algorithms it includes itself: other releases of the
+ *       library bring them along elsewhere, or nowhere.
  * Method: every #include "..." in src and platform is looked up in the table below, which is that section line by
  *       line. Each wrong arrow the table must catch is planted once. */
 #include "source_token.h"
@@ -85,6 +86,33 @@ source_tree_complaints wrong_arrows(const source_tree_file &file, const std::set
     return complaints;
 }
 
+/* What only <algorithm> promises. */
+const std::set<std::string> algorithms = {
+    "min",         "max",         "clamp",     "minmax",      "min_element", "max_element", "sort",
+    "stable_sort", "nth_element", "is_sorted", "lower_bound", "upper_bound", "any_of",      "all_of",
+    "none_of",     "find",        "find_if",   "count",       "count_if",    "copy",        "copy_n",
+    "copy_if",     "fill",        "fill_n",    "equal",       "reverse",     "rotate",      "transform",
+    "unique",      "remove_if", "shuffle",     "generate",    "replace",     "replace_if"};
+
+/* std::min( without #include <algorithm>; one complaint a file is enough. */
+source_tree_complaints borrowed_algorithms(const source_tree_file &file)
+{
+    for (const source_token_include &include : source_token_includes(file.text)) {
+        if (include.path == "algorithm") {
+            return {};
+        }
+    }
+    const std::vector<source_token> tokens = source_token_cut_code(file.text);
+    for (size_t i = 0; i + 3 < tokens.size(); ++i) {
+        if (tokens[i].text == "std" && tokens[i + 1].text == "::" && algorithms.count(tokens[i + 2].text) != 0 &&
+            (tokens[i + 3].text == "(" || tokens[i + 3].text == "<")) {
+            return {file.path + ":" + std::to_string(tokens[i].line) + ": std::" + tokens[i + 2].text +
+                    " without <algorithm>"};
+        }
+    }
+    return {};
+}
+
 std::set<std::string> paths_of(const std::vector<source_tree_file> &files)
 {
     std::set<std::string> paths;
@@ -109,6 +137,29 @@ TEST(include_graph, follows_the_arrows)
     }
     EXPECT_GT(count, 50u) << "the tree was not read";
     EXPECT_TRUE(complaints.empty()) << source_tree_join(complaints);
+}
+
+TEST(include_graph, algorithms_are_not_borrowed)
+{
+    source_tree_complaints complaints;
+    for (const source_tree_file &file : source_tree_read({"src", "platform", "tests"})) {
+        if (source_tree_is_code(file.path)) {
+            const source_tree_complaints more = borrowed_algorithms(file);
+            complaints.insert(complaints.end(), more.begin(), more.end());
+        }
+    }
+    EXPECT_TRUE(complaints.empty()) << source_tree_join(complaints);
+}
+
+TEST(include_graph, planted_borrowed_algorithms_are_seen)
+{
+    EXPECT_EQ(borrowed_algorithms({"a.cpp", "#include <vector>\nint f(int a) { return std::min(a, 3); }\n"}).size(),
+              1u);
+    EXPECT_EQ(borrowed_algorithms({"a.cpp", "int f(int a) { return std::max<int>(a, 3); }\n"}).size(), 1u);
+    EXPECT_EQ(borrowed_algorithms({"a.cpp", "#include <algorithm>\nint f(int a) { return std::min(a, 3); }\n"}).size(),
+              0u);
+    EXPECT_EQ(borrowed_algorithms({"a.cpp", "size_t f(std::string a) { return a.find(3) + box::min(1, 2); }\n"}).size(),
+              0u);
 }
 
 /* The files the planted includes name. */

@@ -3,7 +3,7 @@
  * Goal    No bytes make the reader of sculpture files read outside them, allocate more than they could hold, or change
  *         the clay without saying STATUS_OK; and what it accepts is a field whose file is those bytes and no others.
  * Method  The first byte chooses: the rest are a file; a file whose checksums are put right; or corners to write into
- *         clay, whose file is then changed in one place, and its checksums perhaps put right.
+ *         clay, whose file must pass, and is then changed in up to four places, its checksums perhaps put right.
  */
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace {
 
-enum { BRICKS = 32, HEADER = CHECKPOINT_HEADER_BYTES, CORNER_PROGRAM_BYTES = 6 };
+enum { BRICKS = 32, HEADER = CHECKPOINT_HEADER_BYTES, CORNER_PROGRAM_BYTES = 6, CHANGE_BYTES = 3, CHANGES_MAX = 4 };
 
 using byte_string = std::vector<uint8_t>;
 
@@ -79,7 +79,7 @@ void write_corners(clay &c, const uint8_t *bytes, size_t size)
     }
 }
 
-void read_file(byte_string file)
+status read_file(byte_string file)
 {
     clay c;
     checkpoint_facts facts;
@@ -95,20 +95,29 @@ void read_file(byte_string file)
         require(clay_digest(&c) == digest && trouble.offset <= file.size() && trouble.expected[0] != '\0');
     }
     clay_finish(&c);
+    return s;
+}
+
+/* Three bytes a change: where, and what is turned over there. */
+void spoil(byte_string &file, const uint8_t *bytes, size_t changes)
+{
+    for (; changes > 0; bytes += CHANGE_BYTES, changes--)
+        file[static_cast<size_t>(bytes[0] << 8 | bytes[1]) % file.size()] ^= bytes[2];
 }
 
 void make_and_spoil(const uint8_t *bytes, size_t size)
 {
-    if (size < 4)
+    const size_t head = 1 + CHANGE_BYTES * CHANGES_MAX;
+    if (size < head)
         return;
     clay c;
     require(clay_init(&c, BRICKS) == STATUS_OK);
-    write_corners(c, bytes + 4, size - 4);
+    write_corners(c, bytes + head, size - head);
     const checkpoint_facts facts = {.step_mm = 1, .sequence = bytes[0], .dab = 2, .bricks = 0, .digest = 0};
     byte_string file = file_of(c, facts);
     clay_finish(&c);
-    read_file(file);
-    file[(bytes[1] << 8 | bytes[2]) % file.size()] ^= bytes[3];
+    require(read_file(file) == STATUS_OK);
+    spoil(file, bytes + 1, 1 + (bytes[0] >> 1) % CHANGES_MAX);
     if (bytes[0] & 1)
         put_checksums_right(file);
     read_file(file);

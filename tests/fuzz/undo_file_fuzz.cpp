@@ -3,7 +3,7 @@
  * Goal    No bytes make the reader of undo-files read outside them or change clay in part; what it lets pass can be
  *         applied forth and back to the exact digest, and a stroke that does the same makes the same bytes.
  * Method  The first byte chooses: the rest are a file; a file whose checksums are put right; or corners of a stroke,
- *         whose file is then changed in one place, and its checksums perhaps put right.
+ *         whose file must pass, and is then changed in up to four places, its checksums perhaps put right.
  */
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace {
 
-enum { BRICKS = 32, HEADER = UNDO_FILE_HEADER_BYTES, CORNER_PROGRAM_BYTES = 6 };
+enum { BRICKS = 32, HEADER = UNDO_FILE_HEADER_BYTES, CORNER_PROGRAM_BYTES = 6, CHANGE_BYTES = 3, CHANGES_MAX = 4 };
 
 using byte_string = std::vector<uint8_t>;
 
@@ -94,16 +94,24 @@ void read_file(clay &c, const byte_string &file)
         require(trouble.expected != nullptr && trouble.offset <= file.size());
 }
 
+/* Three bytes a change: where, and what is turned over there. */
+void spoil(byte_string &file, const uint8_t *bytes, size_t changes)
+{
+    for (; changes > 0; bytes += CHANGE_BYTES, changes--)
+        file[static_cast<size_t>(bytes[0] << 8 | bytes[1]) % file.size()] ^= bytes[2];
+}
+
 void make_and_spoil(clay &c, const uint8_t *bytes, size_t size)
 {
-    if (size < 4)
+    const size_t head = 1 + CHANGE_BYTES * CHANGES_MAX;
+    if (size < head)
         return;
-    const size_t before = (size - 4) / 2;
-    write_corners(c, bytes + 4, before);
+    const size_t before = (size - head) / 2;
+    write_corners(c, bytes + head, before);
     undo_file_facts facts = {.stroke = 1u + bytes[0], .digest_before = clay_digest(&c), .digest_after = 0, .dab = 1,
                              .ring = 200, .bricks = 0, .corners = 0, .bytes = 0};
     clay_change_begin(&c);
-    write_corners(c, bytes + 4 + before, size - 4 - before);
+    write_corners(c, bytes + head + before, size - head - before);
     facts.digest_after = clay_digest(&c);
     byte_string file = file_of(c, facts);
     clay_change_revert(&c);
@@ -114,7 +122,7 @@ void make_and_spoil(clay &c, const uint8_t *bytes, size_t size)
     preamble_trouble trouble;
     require(undo_file_check(&found, file.data(), file.size(), &trouble) == STATUS_OK);
     read_file(c, file);
-    file[(bytes[1] << 8 | bytes[2]) % file.size()] ^= bytes[3];
+    spoil(file, bytes + 1, 1 + (bytes[0] >> 1) % CHANGES_MAX);
     if (bytes[0] & 1)
         put_checksums_right(file);
     read_file(c, file);

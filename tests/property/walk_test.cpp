@@ -145,6 +145,26 @@ void expect_nothing_outside(const walk &w, const frame &f)
             }
 }
 
+/* The range, counted from the eight corners of the oriented box. */
+void expect_range(const walk &w, const frame &f)
+{
+    const int32_t lo[3] = {w.corners.min.i, w.corners.min.j, w.corners.min.k};
+    const int32_t hi[3] = {w.corners.max.i, w.corners.max.j, w.corners.max.k};
+    for (int c = 0; c < 3; c++) {
+        real least = 1e30L, most = -1e30L;
+        for (int n = 0; n < 8; n++) {
+            real x = f.origin[c];
+            for (int a = 0; a < 3; a++)
+                x += static_cast<real>(f.axis[a][c]) * (n >> a & 1 ? w.hi[a] : w.lo[a]);
+            least = std::min(least, x);
+            most = std::max(most, x);
+        }
+        const real doubt = 1e-15L * (100 + std::fabs(least) + std::fabs(most)); /* where doubles may floor otherwise */
+        ASSERT_TRUE(lo[c] >= std::floor(least - doubt) && lo[c] <= std::floor(least + doubt)) << "axis " << c;
+        ASSERT_TRUE(hi[c] >= std::floor(most - doubt) && hi[c] <= std::floor(most + doubt)) << "axis " << c;
+    }
+}
+
 void expect_walk(seeded &chance, const kind &k)
 {
     const frame f = random_frame(chance, k);
@@ -152,6 +172,7 @@ void expect_walk(seeded &chance, const kind &k)
     walk w;
     ASSERT_EQ(walk_begin(&w, &f, &s), STATUS_OK) << k.name;
     ASSERT_EQ(w.visited, box_count(w.corners));
+    ASSERT_NO_FATAL_FAILURE(expect_range(w, f)) << k.name;
     tally t = {0, 0, 0};
     key b;
     for (b.i = w.bricks.min.i; b.i <= w.bricks.max.i; b.i++)

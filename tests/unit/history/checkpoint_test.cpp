@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -292,6 +293,7 @@ TEST(checkpoint, forged_files_are_refused)
         {"another digest", STATUS_CORRUPT, 48, 1, "digest of the clay"},
         {"no corners", STATUS_CORRUPT, first + 12, 0, "as many as the mask"},
         {"more corners than the mask has", STATUS_CORRUPT, first + 12, 2, "as many as the mask"},
+        {"more corners than the last mask has", STATUS_CORRUPT, second + 12, 3, "as many as the mask"},
         {"corners beyond a brick", STATUS_CORRUPT, first + 12, 0x20000000, "as many as the mask"},
         {"bricks out of order", STATUS_CORRUPT, first + 8, 4, "above the one before"},
         {"the same brick twice", STATUS_CORRUPT, first + 8, 1, "above the one before"},

@@ -126,6 +126,7 @@ TEST_F(storage_on_disk, only_regular_files_are_touched)
         EXPECT_NE(storage_read(&s, name, 0, &b, 1, &count), 0) << name;
         EXPECT_NE(storage_sync(&s, name), 0) << name;
     }
+    EXPECT_EQ(put("pipe", "x"), -EINVAL);
     EXPECT_EQ(on_disk("target"), "mine");
     EXPECT_NE(storage_remove(&s, "folder"), 0);
 }

@@ -6,6 +6,7 @@
 
 #include "tests/unit/surface/sample_clay.h"
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -53,10 +54,13 @@ struct bench {
     ellipsoid ball;
 };
 
-/* Some clay, as a dab finds it: the first slabs of every pool may be open already, or not. */
+/* Some clay, as a dab finds it: the first slabs of every pool may be open already, or not. Fresh memory is full of
+   noise, as it is in a process that has run for long. */
 bool prepare(bench &b, bool recording)
 {
     seeded chance = {1};
+    if (mallopt(M_PERTURB, 0x5A) != 1 || mallopt(M_MMAP_THRESHOLD, 16 << 20) != 1)
+        return false;
     const bool made = clay_init(&b.c, CAPACITY_BRICKS) == STATUS_OK &&
                       tool_scratch_init(&b.scratch, CAPACITY_DAB_BRICKS) == STATUS_OK &&
                       ellipsoid_init(&b.ball, ELLIPSOID_WYVILL, 0.1) == STATUS_OK &&

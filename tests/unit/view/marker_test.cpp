@@ -5,6 +5,8 @@
  *         bounding ball or the box's corners. */
 #include "view_stage.h"
 
+#include <algorithm>
+
 namespace {
 
 class view_marker : public view_stage {

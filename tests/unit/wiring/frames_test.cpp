@@ -7,6 +7,7 @@
 #include "wiring/scratch_store.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <memory>
 #include <random>
 

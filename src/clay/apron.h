@@ -19,7 +19,7 @@ extern "C" {
 
 enum { APRON_LO = -1, APRON_HI_MAX = 9, APRON_SIDE_MAX = 11, APRON_CORNERS_MAX = 1331 };
 
-/* rgba may be NULL. hi in 8..9. */
+/* Either may be NULL. hi in 8..9. */
 void apron_gather(const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS], int hi, float *potential, uint32_t *rgba);
 
 #ifdef __cplusplus

@@ -8,7 +8,8 @@
  *
  *              neighbour[(di+1)*9 + (dj+1)*3 + (dk+1)], d in -1..1; [13] is the brick itself
  *
- *          Invariant: potential in (0, 3] and any colour, or potential 0 and COLOUR_NONE; `stored` counts the former.
+ *          Invariant: potential in (0, 3] and any colour, or potential 0 and COLOUR_NONE; `stored` counts the former,
+ *          `inside` says which are at or over iso.
  * Owner:   clay's pools.
  */
 #ifndef GLAISE_CLAY_BRICK_H
@@ -36,8 +37,12 @@ typedef struct brick_mask {
 typedef struct brick {
     key at; /* brick key: its smallest corner divided by 8 */
     uint32_t neighbour[BRICK_NEIGHBOURS];
+    brick_mask inside; /* corners at or over POTENTIAL_ISO */
+    uint64_t born;     /* number of its making: ids are used again, these are not */
     uint32_t stored;   /* corners above POTENTIAL_MIN */
     uint32_t image;    /* its image before the stroke (change.h), or POOL_NONE */
+    uint32_t dirt;     /* its entry (dirt.h), where dirt_round is that of the dirt */
+    uint32_t dirt_round;
     bool digest_known; /* digest is that of the page as it is */
     uint64_t digest;
     uint32_t page_id;
@@ -47,6 +52,18 @@ typedef struct brick {
 static inline int brick_neighbour_index(int di, int dj, int dk) { return (di + 1) * 9 + (dj + 1) * 3 + (dk + 1); }
 static inline void brick_mask_set(brick_mask *m, int slot) { m->slab[slot >> 6] |= (uint64_t)1 << (slot & 63); }
 static inline bool brick_mask_has(const brick_mask *m, int slot) { return m->slab[slot >> 6] >> (slot & 63) & 1; }
+static inline void brick_mask_unite(brick_mask *m, const brick_mask *with)
+{
+    for (int s = 0; s < BRICK_EDGE; s++)
+        m->slab[s] |= with->slab[s];
+}
+static inline uint32_t brick_mask_count(const brick_mask *m)
+{
+    uint32_t n = 0;
+    for (int s = 0; s < BRICK_EDGE; s++)
+        n += (uint32_t)__builtin_popcountll(m->slab[s]);
+    return n;
+}
 static inline bool brick_mask_is_empty(const brick_mask *m)
 {
     uint64_t any = 0;

@@ -28,6 +28,12 @@ void change_clear(change *c)
     c->recording = false;
 }
 
+status change_reserve(change *c, uint32_t more)
+{
+    status s = pool_reserve(&c->images, more);
+    return s == STATUS_OK ? pool_reserve(&c->index.nodes, more) : s;
+}
+
 status change_keep(change *c, key at, const brick_page *page, uint32_t *image_out)
 {
     uint32_t id = avl_find(&c->index, at);

@@ -34,6 +34,8 @@ typedef struct change {
 STATUS_CHECKED status change_init(change *c, uint32_t limit);
 void change_finish(change *c);
 void change_clear(change *c); /* forgets the images, stops recording */
+/* The next `more` new images will not be refused. */
+STATUS_CHECKED status change_reserve(change *c, uint32_t more);
 /* Image of the brick at `at`, taken from `page` (NULL: a brick that is not stored) unless there is one already. */
 STATUS_CHECKED status change_keep(change *c, key at, const brick_page *page, uint32_t *image_out);
 

@@ -14,6 +14,7 @@ status clay_init(clay *c, uint32_t bricks)
     assert(bricks >= 1 && bricks <= CAPACITY_BRICKS);
     memset(c, 0, sizeof *c);
     c->tree.root = POOL_NONE;
+    c->rows = lanes_best();
     status s = avl_init(&c->tree, bricks);
     if (s == STATUS_OK)
         s = pool_init(&c->bricks, sizeof(brick), bricks);
@@ -98,9 +99,11 @@ static status brick_make(clay *c, key at, uint32_t *id_out)
         pool_give(&c->bricks, id);
         return s;
     }
-    *b = (brick){.at = at, .image = POOL_NONE, .page_id = page_id, .page = (brick_page *)pool_at(&c->pages, page_id)};
+    *b = (brick){.at = at, .born = ++c->births, .image = POOL_NONE, .page_id = page_id};
+    b->page = (brick_page *)pool_at(&c->pages, page_id);
     memset(b->page, 0, sizeof *b->page);
     link_up(c, id);
+    dirt_born(&c->dirty, b, id);
     *id_out = id;
     return STATUS_OK;
 }
@@ -113,18 +116,23 @@ static void brick_drop(clay *c, uint32_t id)
         if (n != BRICK_SELF && b->neighbour[n] != POOL_NONE)
             clay_brick(c, b->neighbour[n])->neighbour[BRICK_NEIGHBOURS - 1 - n] = POOL_NONE;
     avl_remove(&c->tree, b->at);
+    dirt_gone(&c->dirty, b);
     b->page = NULL; /* how clay_digest knows a given-back brick */
     pool_give(&c->pages, b->page_id);
     pool_give(&c->bricks, id);
 }
 
-void clay_need_add(const clay *c, clay_need *need, key brick_at, bool opened)
+void clay_need_add(const clay *c, clay_need *need, key brick_at, uint32_t brick_id, bool opened)
 {
-    need->marks += avl_find(&c->dirty.index, brick_at) == POOL_NONE;
-    if (!opened)
+    if (brick_id != POOL_NONE) {
+        const brick *b = clay_brick(c, brick_id);
+        need->marks += dirt_of(&c->dirty, b) == POOL_NONE;
+        need->images += opened && c->changes.recording && b->image == POOL_NONE;
         return;
-    need->bricks += clay_find(c, brick_at) == POOL_NONE;
-    need->images += c->changes.recording && avl_find(&c->changes.index, brick_at) == POOL_NONE;
+    }
+    need->marks += avl_find(&c->dirty.absent, brick_at) == POOL_NONE;
+    need->bricks += opened;
+    need->images += opened && c->changes.recording && avl_find(&c->changes.index, brick_at) == POOL_NONE;
 }
 
 status clay_need_fits(const clay *c, const clay_need *need)
@@ -132,6 +140,20 @@ status clay_need_fits(const clay *c, const clay_need *need)
     if (need->bricks > pool_room(&c->bricks) || need->images > pool_room(&c->changes.images))
         return STATUS_POOL_FULL;
     return need->marks + c->changes.images.limit > dirt_room(&c->dirty) ? STATUS_POOL_FULL : STATUS_OK;
+}
+
+status clay_reserve(clay *c, const clay_need *need)
+{
+    status s = clay_need_fits(c, need);
+    if (s == STATUS_OK)
+        s = pool_reserve(&c->bricks, (uint32_t)need->bricks);
+    if (s == STATUS_OK)
+        s = pool_reserve(&c->pages, (uint32_t)need->bricks);
+    if (s == STATUS_OK)
+        s = pool_reserve(&c->tree.nodes, (uint32_t)need->bricks);
+    if (s == STATUS_OK)
+        s = change_reserve(&c->changes, (uint32_t)need->images);
+    return s == STATUS_OK ? dirt_reserve(&c->dirty, (uint32_t)need->marks) : s;
 }
 
 status clay_room(const clay *c, uint64_t fresh, uint64_t touched)
@@ -165,28 +187,77 @@ status clay_brick_open(clay *c, key brick_at, uint32_t *id_out)
     return STATUS_OK;
 }
 
+/* Restores the invariant on one row of eight. */
+static void row_close(float *potential, uint32_t *rgba, uint32_t *inside_out, uint32_t *stored)
+{
+    uint32_t inside = 0;
+    for (int n = 0; n < BRICK_EDGE; n++) {
+        float v = potential[n];
+        v = v > POTENTIAL_MAX ? POTENTIAL_MAX : v;
+        v = v > POTENTIAL_MIN ? v : POTENTIAL_MIN; /* NaN is not above the minimum either */
+        potential[n] = v;
+        rgba[n] = v > POTENTIAL_MIN ? rgba[n] : COLOUR_NONE;
+        inside |= (uint32_t)(v >= POTENTIAL_ISO) << n;
+        *stored += v > POTENTIAL_MIN;
+    }
+    *inside_out = inside;
+}
+
+static status stored_mark(clay *c, uint32_t id, const brick_mask *dirtied, const brick_mask *moved)
+{
+    uint32_t entry;
+    status s = dirt_open_stored(&c->dirty, clay_brick(c, id), id, &entry);
+    if (s == STATUS_OK) {
+        brick_mask_unite(&dirt_at(&c->dirty, entry)->corners, dirtied);
+        brick_mask_unite(&dirt_at(&c->dirty, entry)->moved, moved);
+    }
+    return s;
+}
+
 status clay_brick_close(clay *c, uint32_t id, const brick_mask *dirtied)
 {
     brick *b = clay_brick(c, id);
-    brick_page *p = b->page;
     uint32_t stored = 0;
-    for (int n = 0; n < BRICK_CORNERS; n++) {
-        float v = p->potential[n];
-        v = v > POTENTIAL_MAX ? POTENTIAL_MAX : v;
-        v = v > POTENTIAL_MIN ? v : POTENTIAL_MIN; /* NaN is not above the minimum either */
-        p->potential[n] = v;
-        p->rgba[n] = v > POTENTIAL_MIN ? p->rgba[n] : COLOUR_NONE;
-        stored += v > POTENTIAL_MIN;
+    b->inside = (brick_mask){{0}};
+    for (int row = 0; row < BRICK_ROWS; row++) {
+        uint32_t inside;
+        row_close(b->page->potential + row * 8, b->page->rgba + row * 8, &inside, &stored);
+        b->inside.slab[row >> 3] |= (uint64_t)inside << ((row & 7) * 8);
     }
     c->corners += (uint64_t)stored - b->stored;
     b->stored = stored;
-    return dirt_mark(&c->dirty, b->at, dirtied);
+    return stored_mark(c, id, dirtied, dirtied);
+}
+
+status clay_mark(clay *c, key brick_at, const brick_mask *dirtied)
+{
+    uint32_t id = clay_find(c, brick_at);
+    return id == POOL_NONE ? dirt_mark(&c->dirty, brick_at, dirtied) : stored_mark(c, id, dirtied, dirtied);
+}
+
+const dirt_entry *clay_dirt(const clay *c, key brick_at)
+{
+    uint32_t id = clay_find(c, brick_at);
+    uint32_t entry = id == POOL_NONE ? avl_find(&c->dirty.absent, brick_at) : dirt_of(&c->dirty, clay_brick(c, id));
+    return entry == POOL_NONE ? NULL : dirt_at(&c->dirty, entry);
+}
+
+void clay_brick_settle(clay *c, uint32_t id, const clay_written *now)
+{
+    brick *b = clay_brick(c, id);
+    c->corners += (uint64_t)now->stored - b->stored;
+    b->stored = now->stored;
+    b->inside = now->inside;
+    b->digest_known = false;
+    status s = stored_mark(c, id, &now->dirtied, &now->moved);
+    assert(s == STATUS_OK);
+    (void)s;
 }
 
 void clay_prune(clay *c)
 {
     for (uint32_t n = 0; n < dirt_count(&c->dirty); n++) {
-        uint32_t id = clay_find(c, dirt_at(&c->dirty, n)->at);
+        uint32_t id = dirt_at(&c->dirty, n)->brick_id;
         if (id != POOL_NONE && clay_brick(c, id)->stored == 0)
             brick_drop(c, id);
     }
@@ -211,6 +282,7 @@ status clay_copy(clay *to, const clay *from)
         brick *d = clay_brick(to, copy);
         *d->page = *b->page;
         d->stored = b->stored;
+        d->inside = b->inside;
     }
     to->corners = from->corners;
     return STATUS_OK;
@@ -240,14 +312,12 @@ status clay_write(clay *c, key corner, float potential, uint32_t rgba)
     int slot = key_slot(corner);
     bool opened = potential > POTENTIAL_MIN || clay_find(c, at) != POOL_NONE; /* nothing is removed from nothing */
     clay_need need = {0, 0, 0};
-    clay_need_add(c, &need, at, opened);
-    status s = clay_need_fits(c, &need);
+    clay_need_add(c, &need, at, clay_find(c, at), opened);
+    status s = clay_reserve(c, &need); /* nothing is refused from here on */
     brick_mask m = {{0}};
     brick_mask_set(&m, slot);
-    if (s == STATUS_OK)
-        s = dirt_mark(&c->dirty, at, &m); /* first, since closing cannot fail on a brick that is marked */
     if (s != STATUS_OK || !opened)
-        return s;
+        return s == STATUS_OK ? dirt_mark(&c->dirty, at, &m) : s;
     uint32_t id;
     s = clay_brick_open(c, at, &id);
     if (s != STATUS_OK)
@@ -369,6 +439,8 @@ static bool brick_is_valid(const clay *c, uint32_t id)
     uint32_t stored = 0;
     for (int n = 0; n < BRICK_CORNERS; n++) {
         float v = b->page->potential[n];
+        if (brick_mask_has(&b->inside, n) != (v >= POTENTIAL_ISO))
+            return false;
         if (!(v >= POTENTIAL_MIN && v <= POTENTIAL_MAX) || (v == POTENTIAL_MIN && b->page->rgba[n] != COLOUR_NONE))
             return false;
         stored += v > POTENTIAL_MIN;

@@ -24,6 +24,7 @@
 #include "clay/dirt.h"
 #include "clay/potential.h"
 #include "lattice/box.h"
+#include "lattice/lanes.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,6 +35,8 @@ typedef struct clay {
     pool bricks;
     pool pages;
     uint64_t corners; /* stored corners, over all bricks */
+    uint64_t births;  /* bricks made so far */
+    lanes rows;       /* the vectors that row kernels use on this clay: the best there are, or what a test wants */
     change changes; /* bricks as they were before the stroke under way */
     dirt dirty;     /* corners dirtied since the surface was last brought up to date */
 } clay;
@@ -70,14 +73,23 @@ typedef struct clay_need {
     uint64_t bricks, images, marks;
 } clay_need;
 
-/* Adds one brick, each once: `opened` says whether it will be opened (made if absent) or only its dirt marked. */
-void clay_need_add(const clay *c, clay_need *need, key brick_at, bool opened);
+/* Adds one brick, each once, with its id (POOL_NONE: not stored): `opened` says whether it will be opened (made if
+   absent) or only its dirt marked. */
+void clay_need_add(const clay *c, clay_need *need, key brick_at, uint32_t brick_id, bool opened);
 /* STATUS_POOL_FULL unless there is room; as many marks as there can be images are held back, so that a change can be
    reverted. */
 STATUS_CHECKED status clay_need_fits(const clay *c, const clay_need *need);
+/* The same, and asks the machine for the memory now: after STATUS_OK what was counted cannot fail. */
+STATUS_CHECKED status clay_reserve(clay *c, const clay_need *need);
 
 /* Ids of the 27 bricks round a brick key, POOL_NONE where absent; by links when the brick itself is stored. */
 void clay_neighbours(const clay *c, key brick_at, uint32_t ids_out[BRICK_NEIGHBOURS]);
+
+/* The brick after `from` (an id, or POOL_NONE) along k, whose key is `next`: by a link where there is one to follow. */
+static inline uint32_t clay_find_beyond(const clay *c, uint32_t from, key next)
+{
+    return from == POOL_NONE ? clay_find(c, next) : clay_brick(c, from)->neighbour[BRICK_SELF + 1];
+}
 
 /* Brick for writing; made empty if absent; its image is kept if a change is being recorded. */
 STATUS_CHECKED status clay_brick_open(clay *c, key brick_at, uint32_t *id_out);
@@ -85,8 +97,19 @@ STATUS_CHECKED status clay_brick_open(clay *c, key brick_at, uint32_t *id_out);
    (clamps, removes, counts) and marks the dirt. Only that mark can fail, and not where the brick is marked already; the
    page then stays as it was written, and putting it back is the caller's. */
 STATUS_CHECKED status clay_brick_close(clay *c, uint32_t id, const brick_mask *dirtied);
+/* Marks corners of a brick dirty, stored or not, all of which may have moved. */
+STATUS_CHECKED status clay_mark(clay *c, key brick_at, const brick_mask *dirtied);
+/* What is marked at a brick, stored or not; NULL when it is not dirty. */
+const dirt_entry *clay_dirt(const clay *c, key brick_at);
 /* Gives back every brick among those marked dirty that holds no corner any more. */
 void clay_prune(clay *c);
+/* Ends writing for those who keep the invariant themselves: what the brick has become is taken as told. Room for the
+   mark must have been reserved. */
+typedef struct clay_written {
+    brick_mask inside, dirtied, moved;
+    uint32_t stored;
+} clay_written;
+void clay_brick_settle(clay *c, uint32_t id, const clay_written *now);
 
 /* --- the change under way --- */
 

@@ -25,32 +25,31 @@ static inline uint32_t colour_pack(unsigned r, unsigned g, unsigned b, unsigned 
 }
 static inline unsigned colour_channel(uint32_t rgba, int n) { return rgba >> (8 * n) & 255u; }
 
-#define COLOUR_WHOLE 16777216.0f /* 2^24: parts of a channel's step that mixing can tell apart */
+/* The dither's steps along i, j, k and from dab to dab: powers of 1/1.16730..., the root of x^5 = x + 1, as parts of
+   2^32. Points of this sequence lie as evenly as points can, over the corners of one dab and over the dabs on one
+   corner. */
+#define COLOUR_STEP_I 0xDB4F0B91u
+#define COLOUR_STEP_J 0xBBE05633u
+#define COLOUR_STEP_K 0xA0F2EC77u
+#define COLOUR_STEP_DAB 0x89E18285u
+#define COLOUR_WHOLE 65536.0f /* thresholds are multiples of 2^-16: with 255 they still fit a float */
 
-/* Threshold in [0, 1) for rounding at corner `at` during dab number `dab`: a hash of those two and nothing else. A
-   multiple of 2^-24. */
+/* Threshold in [0, 1) for rounding at corner `at` during dab number `dab`. */
 static inline float colour_dither(key at, uint64_t dab)
 {
-    uint32_t h = (uint32_t)at.i * 0x9E3779B1u ^ (uint32_t)at.j * 0x85EBCA77u ^ (uint32_t)at.k * 0xC2B2AE3Du;
-    h ^= (uint32_t)dab * 0x27D4EB2Fu ^ (uint32_t)(dab >> 32) * 0x165667B1u;
-    h ^= h >> 15;
-    h *= 0x2C1B3C6Du;
-    h ^= h >> 12;
-    h *= 0x297A2D39u;
-    h ^= h >> 15;
-    return (float)(h >> 8) / COLOUR_WHOLE;
+    uint32_t h = (uint32_t)at.i * COLOUR_STEP_I + (uint32_t)at.j * COLOUR_STEP_J + (uint32_t)at.k * COLOUR_STEP_K +
+                 (uint32_t)dab * COLOUR_STEP_DAB;
+    return (float)(h >> 16) / COLOUR_WHOLE;
 }
 
 /* from + weight (to - from) per channel, weight in [0, 1], rounded up with a chance equal to the fraction.
-   weight 0 and 1 are exact; a channel never leaves the span between its two ends. In whole numbers: as floats, 255
-   and a threshold just under one would round up to 256 and carry into the next channel. */
+   weight 0 and 1 are exact; a channel never leaves the span between its two ends: every step rounds monotonously. */
 static inline uint32_t colour_mix(uint32_t from, uint32_t to, float weight, float dither)
 {
-    const int64_t w = (int64_t)(weight * COLOUR_WHOLE), threshold = (int64_t)(dither * COLOUR_WHOLE);
     uint32_t out = 0;
     for (int n = 0; n < 4; n++) {
-        int64_t a = colour_channel(from, n), b = colour_channel(to, n);
-        out |= (uint32_t)((a * (int64_t)COLOUR_WHOLE + (b - a) * w + threshold) >> 24) << (8 * n);
+        float a = (float)colour_channel(from, n), b = (float)colour_channel(to, n);
+        out |= (uint32_t)(a + (b - a) * weight + dither) << (8 * n);
     }
     return out;
 }

@@ -11,6 +11,7 @@
 
 #define POTENTIAL_MIN 0.0f /* a corner at or under it is not stored */
 #define POTENTIAL_MAX 3.0f /* a corner above it is clamped to it */
+#define POTENTIAL_FAINT 0.002f /* smoothing leaves nothing at or under it: else it would creep on for ever */
 #define POTENTIAL_ISO 1.5f /* inside means >= iso, equality included, everywhere */
 
 #endif

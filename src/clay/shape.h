@@ -12,6 +12,8 @@
 #ifndef GLAISE_CLAY_SHAPE_H
 #define GLAISE_CLAY_SHAPE_H
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -20,6 +22,7 @@ typedef struct shape {
     const void *self;
     void (*evaluate)(const void *self, const float *x, const float *y, const float *z, float *potential, int n);
     double lo[3], hi[3]; /* support: the potential is 0 unless lo < p < hi on every axis */
+    bool wyvill;         /* evaluate is Wyvill's of the unit ball (tool/ellipsoid.h): row kernels need not call it */
 } shape;
 
 #ifdef __cplusplus

@@ -344,13 +344,13 @@ static status mark_old(const clay *old, clay *fresh)
     const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
     status s = STATUS_OK;
     for (uint32_t n = 0; s == STATUS_OK && n < dirt_count(&old->dirty); n++)
-        s = dirt_mark(&fresh->dirty, dirt_at(&old->dirty, n)->at, &dirt_at(&old->dirty, n)->corners);
+        s = clay_mark(fresh, dirt_at(&old->dirty, n)->at, &dirt_at(&old->dirty, n)->corners);
     avl_walk w;
     key at;
     uint32_t id;
     bool more = avl_first(&w, &old->tree, &at, &id);
     for (; s == STATUS_OK && more; more = avl_next(&w, &at, &id))
-        s = dirt_mark(&fresh->dirty, at, &all);
+        s = clay_mark(fresh, at, &all);
     return s;
 }
 

@@ -82,7 +82,7 @@ static status mark_all(clay *c)
     status s = STATUS_OK;
     dirt_clear(&c->dirty);
     for (bool more = avl_first(&w, &c->tree, &at, &id); s == STATUS_OK && more; more = avl_next(&w, &at, &id))
-        s = dirt_mark(&c->dirty, at, &all);
+        s = clay_mark(c, at, &all);
     return s;
 }
 

@@ -34,6 +34,28 @@ void pool_finish(pool *p)
     memset(p, 0, sizeof *p);
 }
 
+static status slab_open(pool *p, uint32_t slab)
+{
+    if (p->slabs[slab])
+        return STATUS_OK;
+    size_t bytes = slab_items(p) * p->item_bytes;
+    p->slabs[slab] = aligned_alloc(ALIGNMENT, (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
+    return p->slabs[slab] ? STATUS_OK : STATUS_NO_MEMORY;
+}
+
+status pool_reserve(pool *p, uint32_t more)
+{
+    if (more > pool_room(p))
+        return STATUS_POOL_FULL;
+    uint32_t given_back = p->fresh - p->count;
+    status s = STATUS_OK;
+    if (more > given_back)
+        for (uint32_t slab = p->fresh >> p->slab_shift;
+             s == STATUS_OK && slab <= (p->fresh + (more - given_back) - 1) >> p->slab_shift; slab++)
+            s = slab_open(p, slab);
+    return s;
+}
+
 status pool_take(pool *p, uint32_t *id_out)
 {
     if (p->free_head != POOL_NONE) {
@@ -44,16 +66,12 @@ status pool_take(pool *p, uint32_t *id_out)
     }
     if (p->fresh == p->limit)
         return STATUS_POOL_FULL;
-    void **slab = &p->slabs[p->fresh >> p->slab_shift];
-    if (!*slab) {
-        size_t bytes = slab_items(p) * p->item_bytes;
-        *slab = aligned_alloc(ALIGNMENT, (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
-        if (!*slab)
-            return STATUS_NO_MEMORY;
+    status s = slab_open(p, p->fresh >> p->slab_shift);
+    if (s == STATUS_OK) {
+        *id_out = p->fresh++;
+        p->count++;
     }
-    *id_out = p->fresh++;
-    p->count++;
-    return STATUS_OK;
+    return s;
 }
 
 void pool_give(pool *p, uint32_t id)

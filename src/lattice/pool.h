@@ -40,6 +40,8 @@ typedef struct pool {
 STATUS_CHECKED status pool_init(pool *p, size_t item_bytes, uint32_t limit);
 void pool_finish(pool *p); /* a zeroed pool is fine */
 
+/* The next `more` takes will not fail. */
+STATUS_CHECKED status pool_reserve(pool *p, uint32_t more);
 /* The item's bytes are whatever they were: the taker fills them. */
 STATUS_CHECKED status pool_take(pool *p, uint32_t *id_out);
 void pool_give(pool *p, uint32_t id);

@@ -44,6 +44,8 @@ typedef struct patch {
     patch_vertex *vertices;
     uint16_t (*triangles)[3]; /* indices into vertices, counter-clockwise seen from outside */
     brick_mask crossing;      /* cubes that cross the surface: the paper's crossList, by brick */
+    uint16_t inside[PATCH_SIDE][PATCH_SIDE]; /* [di][dj], bit dk: corners 0..8 at or over iso */
+    bool is_orphan; /* its brick is not stored: only those above are */
     uint64_t digest;
     bool digest_known;
     uint32_t vertex_room, triangle_room;

@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Makes one patch: reads a brick and the layers round it, says which of its cubes cross the surface, and turns
- *          those into vertices and triangles.
- * Is not:  The keeper of patches, nor does it know which are stale (surface.h).
- * Shape:   polygonizer_look -> polygonizer_crossing -> polygonizer_make; the result stays in `vertices` and `triangles`
- *          until the next make. Order and fields: patch.h; position, normal and colour: surface.h.
+ * What:    Makes one patch: joins a brick's inside bits with those of the bricks above it, says which cubes cross the
+ *          surface, and turns those into vertices and triangles. Of a patch that is there already, vertices that have
+ *          not aged are kept as they are, and triangles as long as no corner changed sides.
+ * Is not:  The keeper of patches, nor does it know which are stale (surface.h, aged.h).
+ * Shape:   polygonizer_look -> polygonizer_crossing -> polygonizer_make or _remake; the result stays in `vertices` and
+ *          `triangles` until the next one. Order and fields: patch.h; position, normal and colour: surface.h.
+ *          Cut edges are found row by row in the bits, vertices are made VEC_LANES at a time (polygonizer_rows.c).
  * Units:   lattice steps from the brick's smallest corner.
- * Owner:   the caller; 90 KiB, no memory besides, one per thread. It reads the clay between look and make.
- * Errors:  None.
- * Cost:    look and crossing: rows of eight, a fraction of a microsecond. make: an apron of potentials, then per cut
- *          edge and crossing cube.
+ * Owner:   the caller; 100 KiB, no memory besides, one per thread. It reads the clay between look and make.
+ * Errors:  None. All lanes give the same bits.
+ * Cost:    look and crossing: words of 64 corners, some 50 ns. make: an apron of potentials, then per cut edge and
+ *          crossing cube.
  * Source:  000 section 3.2.
  */
 #ifndef GLAISE_SURFACE_POLYGONIZER_H
 #define GLAISE_SURFACE_POLYGONIZER_H
 
 #include "clay/apron.h"
+#include "lattice/lanes.h"
 #include "surface/case_table.h"
 #include "surface/patch.h"
 
@@ -25,24 +28,58 @@ extern "C" {
 
 enum { POLYGONIZER_TRIANGLES_MAX = (int)BRICK_CORNERS * (int)CASE_TABLE_TRIANGLES_MAX };
 
+/* One bit for each corner 0..8 an axis: [di][dj], bit dk. */
+typedef struct polygonizer_bits {
+    uint16_t row[PATCH_SIDE][PATCH_SIDE];
+} polygonizer_bits;
+
+/* A vertex to be made. */
+typedef struct polygonizer_order {
+    uint16_t vertex;
+    uint8_t d[3]; /* the edge's smaller corner */
+    uint8_t axis;
+} polygonizer_order;
+
 typedef struct polygonizer {
     const clay *of;
     key at;
-    const brick_page *page[8];               /* of the bricks 0..1 an axis, k fastest; NULL where none is stored */
-    uint16_t inside[PATCH_SIDE][PATCH_SIDE]; /* [di][dj], bit dk: corners 0..8 at or over iso */
-    float potential[APRON_CORNERS_MAX];      /* corners -1..9 an axis */
+    uint32_t brick_id;          /* id, or POOL_NONE */
+    const brick *above[8];      /* the bricks 0..1 an axis, k fastest; NULL where none is stored */
+    polygonizer_bits inside;    /* corners at or over iso: polygonizer_make */
+    float potential[APRON_CORNERS_MAX]; /* corners -1..9 an axis */
     uint16_t vertex_of[PATCH_EDGE_NAMES];    /* of cut edges only */
-    uint32_t vertex_count, triangle_count;
+    uint32_t vertex_count, triangle_count, order_count;
+    polygonizer_order orders[PATCH_VERTICES_MAX];
     patch_vertex vertices[PATCH_VERTICES_MAX];
     uint16_t triangles[POLYGONIZER_TRIANGLES_MAX][3];
 } polygonizer;
 
-void polygonizer_look(polygonizer *p, const clay *c, key brick_at);
+/* What became of a patch. */
+typedef enum polygonizer_outcome {
+    POLYGONIZER_SAME,     /* no vertex was made */
+    POLYGONIZER_VERTICES, /* `vertices` are new, the patch's triangles hold */
+    POLYGONIZER_ALL,      /* vertices and triangles are new */
+} polygonizer_outcome;
+
+/* brick_id: of the brick at brick_at, POOL_NONE when it is not stored. */
+void polygonizer_look(polygonizer *p, const clay *c, key brick_at, uint32_t brick_id);
 void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out);
 /* Number of the brick's cubes that have a stored corner: its part of the paper's CubesTree. */
 uint32_t polygonizer_stored_cubes(const polygonizer *p);
+
 /* crossing: what polygonizer_crossing said. */
 void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing);
+/* aged: of the eight bricks of `above`, the aged corners; NULL: none. old: the patch as it was before they aged. */
+polygonizer_outcome polygonizer_remake(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                       const brick_mask *const aged[8], const patch *old);
+
+/* polygonizer_rows.c. aged, old: NULL to make all. */
+polygonizer_outcome polygonizer_run_plain(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                          const brick_mask *const aged[8], const patch *old);
+polygonizer_outcome polygonizer_run_avx2(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                         const brick_mask *const aged[8], const patch *old);
+polygonizer_outcome polygonizer_run_avx512(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                           const brick_mask *const aged[8], const patch *old);
 
 #ifdef __cplusplus
 }

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A dirty brick marks itself and at most its 26 neighbours, so the dirt runs out first. */
-enum { STALE_PER_DIRTY = BRICK_NEIGHBOURS };
+/* A dirty brick ages itself and at most its 26 neighbours, so the dirt runs out first. */
+enum { AGED_PER_DIRTY = BRICK_NEIGHBOURS };
 /* Arrays grow to the next multiple: most remakings of a patch then fit where it lies. */
 enum { VERTEX_GRAIN = 32, TRIANGLE_GRAIN = 64 };
 
@@ -25,7 +25,9 @@ status surface_init(surface *s, uint32_t patches)
     if (r == STATUS_OK)
         r = pool_init(&s->patches, sizeof(patch), patches);
     if (r == STATUS_OK)
-        r = stale_init(&s->marks, STALE_PER_DIRTY * CAPACITY_DIRT);
+        r = aged_init(&s->aged, AGED_PER_DIRTY * CAPACITY_DIRT);
+    if (r == STATUS_OK)
+        r = examined_init(&s->examined, AGED_PER_DIRTY * CAPACITY_DIRT);
     if (r != STATUS_OK)
         surface_finish(s);
     return r;
@@ -38,22 +40,17 @@ static void patch_free(patch *p)
     memset(p, 0, sizeof *p);
 }
 
-static void patches_clear(surface *s)
+void surface_finish(surface *s)
 {
     for (uint32_t slot = 0; slot < surface_slots(s); slot++)
         if (surface_patch(s, slot))
             patch_free(patch_at(s, slot));
-    avl_clear(&s->tree);
-    pool_clear(&s->patches);
-    s->triangles = s->vertices = s->crossing = 0;
-}
-
-void surface_finish(surface *s)
-{
-    patches_clear(s);
     avl_finish(&s->tree);
     pool_finish(&s->patches);
-    stale_finish(&s->marks);
+    aged_finish(&s->aged);
+    examined_finish(&s->examined);
+    free(s->link);
+    memset(s, 0, sizeof *s);
 }
 
 /* --- patches come and go --- */
@@ -83,27 +80,20 @@ static status patch_open(surface *s, key at, uint32_t *slot_out)
     return r;
 }
 
-static uint64_t mask_count(const brick_mask *m)
-{
-    uint64_t n = 0;
-    for (int slab = 0; slab < BRICK_EDGE; slab++)
-        n += (uint64_t)__builtin_popcountll(m->slab[slab]);
-    return n;
-}
-
 /* Takes the patch's part out of the totals, or (sign 1) puts it in. */
 static void totals_move(surface *s, const patch *p, int sign)
 {
     uint64_t by = (uint64_t)(int64_t)sign;
     s->vertices += by * p->vertex_count;
     s->triangles += by * p->triangle_count;
-    s->crossing += by * mask_count(&p->crossing);
+    s->crossing += by * brick_mask_count(&p->crossing);
 }
 
 static void patch_close(surface *s, uint32_t slot)
 {
     patch *p = patch_at(s, slot);
     totals_move(s, p, -1);
+    s->orphans -= p->is_orphan;
     avl_remove(&s->tree, p->at);
     patch_free(p);
     pool_give(&s->patches, slot);
@@ -134,117 +124,203 @@ static status patch_grow(patch *p, uint32_t vertices, uint32_t triangles)
     return STATUS_OK;
 }
 
-static bool patch_equals(const patch *p, const polygonizer *made)
+static bool patch_equals(const patch *p, const polygonizer *made, bool with_triangles)
 {
-    return p->vertex_count == made->vertex_count && p->triangle_count == made->triangle_count &&
+    return p->vertex_count == made->vertex_count &&
            memcmp(p->vertices, made->vertices, p->vertex_count * sizeof *p->vertices) == 0 &&
-           memcmp(p->triangles, made->triangles, p->triangle_count * sizeof *p->triangles) == 0;
+           (!with_triangles ||
+            (p->triangle_count == made->triangle_count &&
+             memcmp(p->triangles, made->triangles, p->triangle_count * sizeof *p->triangles) == 0));
 }
 
-/* The patch becomes what was made, or stays whole. */
-static status patch_fill(surface *s, patch *p, const polygonizer *made, const brick_mask *crossing)
+/* The patch becomes what was made, or stays whole. The totals are the caller's. */
+static status patch_fill(patch *p, const polygonizer *made, polygonizer_outcome outcome, const brick_mask *crossing,
+                         bool *is_other)
 {
-    status r = patch_grow(p, made->vertex_count, made->triangle_count);
-    if (r != STATUS_OK || patch_equals(p, made))
+    bool all = outcome == POLYGONIZER_ALL;
+    status r = all ? patch_grow(p, made->vertex_count, made->triangle_count) : STATUS_OK;
+    *is_other = r == STATUS_OK && outcome != POLYGONIZER_SAME && !patch_equals(p, made, all);
+    if (!*is_other)
         return r;
-    totals_move(s, p, -1);
     p->vertex_count = made->vertex_count;
-    p->triangle_count = made->triangle_count;
     memcpy(p->vertices, made->vertices, p->vertex_count * sizeof *p->vertices);
-    memcpy(p->triangles, made->triangles, p->triangle_count * sizeof *p->triangles);
-    p->crossing = *crossing;
+    if (all) {
+        p->triangle_count = made->triangle_count;
+        memcpy(p->triangles, made->triangles, p->triangle_count * sizeof *p->triangles);
+        memcpy(p->inside, made->inside.row, sizeof p->inside);
+        p->crossing = *crossing;
+    }
     p->digest_known = false;
-    p->generation = ++s->generation;
-    totals_move(s, p, 1);
     return STATUS_OK;
+}
+
+/* --- the way from a brick to its patch --- */
+
+static status links_grow(surface *s, const clay *c)
+{
+    if (c->bricks.fresh <= s->links)
+        return STATUS_OK;
+    uint32_t links = c->bricks.fresh + c->bricks.fresh / 2;
+    surface_link *link = realloc(s->link, links * sizeof *link);
+    if (!link)
+        return STATUS_NO_MEMORY;
+    memset(link + s->links, 0, (links - s->links) * sizeof *link);
+    s->link = link;
+    s->links = links;
+    return STATUS_OK;
+}
+
+static uint32_t slot_of(surface *s, const clay *c, uint32_t brick_id, key at)
+{
+    if (brick_id == POOL_NONE)
+        return avl_find(&s->tree, at);
+    surface_link *link = &s->link[brick_id];
+    uint64_t born = clay_brick(c, brick_id)->born;
+    if (link->born != born)
+        *link = (surface_link){born, avl_find(&s->tree, at)};
+    return link->slot;
+}
+
+/* Says which patch a brick has now; slot POOL_NONE: none. */
+static void slot_set(surface *s, uint32_t brick_id, uint32_t slot)
+{
+    if (brick_id != POOL_NONE)
+        s->link[brick_id].slot = slot;
+    if (slot == POOL_NONE)
+        return;
+    patch *p = patch_at(s, slot);
+    bool is_orphan = brick_id == POOL_NONE;
+    s->orphans += (uint32_t)is_orphan - (uint32_t)p->is_orphan;
+    p->is_orphan = is_orphan;
 }
 
 /* --- bringing up to date --- */
 
-/* Of what is in p: the patch in `slot` (POOL_NONE: a new one) is made, remade, or given back when nothing crosses. */
-static status patch_remake(surface *s, polygonizer *p, key at, uint32_t slot, const brick_mask *crossing,
-                           surface_counts *counts)
+/* What is to be done about a brick's patch; then, what was: vertices made to no other end, another patch. */
+enum { DO_NOTHING, DO_CLOSE, DO_OPEN, DO_RENEW, DID_NOTHING, DID_MAKE, DID_CHANGE, DID_FAIL };
+
+/* Reads clay and surface; writes the entry. */
+static void brick_examine(surface *s, const clay *c, aged_brick *e, polygonizer *p)
 {
-    bool fresh = slot == POOL_NONE;
-    if (brick_mask_is_empty(crossing)) {
-        if (!fresh)
-            patch_close(s, slot);
-        return STATUS_OK;
+    e->slot = slot_of(s, c, e->brick_id, e->at);
+    polygonizer_look(p, c, e->at, e->brick_id);
+    polygonizer_crossing(p, &e->crossing);
+    bool has = e->slot != POOL_NONE, crosses = !brick_mask_is_empty(&e->crossing);
+    e->outcome = has ? (crosses ? DO_RENEW : DO_CLOSE) : (crosses ? DO_OPEN : DO_NOTHING);
+}
+
+static void close_one(surface *s, aged_brick *e)
+{
+    patch_close(s, e->slot);
+    slot_set(s, e->brick_id, POOL_NONE);
+    e->outcome = DO_NOTHING;
+}
+
+static status open_one(surface *s, aged_brick *e)
+{
+    status r = patch_open(s, e->at, &e->slot);
+    if (r == STATUS_OK)
+        slot_set(s, e->brick_id, e->slot);
+    else
+        e->slot = POOL_NONE;
+    return r;
+}
+
+static const brick_mask every_corner = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+
+/* Reads clay and surface; writes the entry and its patch's arrays. */
+static void brick_renew(surface *s, const clay *c, aged_brick *e, polygonizer *p)
+{
+    const brick_mask *above[8];
+    patch *of = patch_at(s, e->slot);
+    polygonizer_look(p, c, e->at, e->brick_id);
+    for (int n = 0; n < 8; n++) {
+        const aged_brick *a = NULL;
+        if (e->brick_id != POOL_NONE && p->above[n])
+            a = aged_of(&s->aged, clay_brick(c, e->brick_id)->neighbour[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)]);
+        above[n] = e->brick_id == POOL_NONE || !p->above[n] ? &every_corner : a ? &a->corners : NULL;
     }
-    polygonizer_make(p, &s->cases, crossing);
-    status r = fresh ? patch_open(s, at, &slot) : STATUS_OK;
+    bool is_other;
+    polygonizer_outcome made = polygonizer_remake(p, &s->cases, &e->crossing, above,
+                                                  e->outcome == DO_OPEN ? NULL : of);
+    status r = patch_fill(of, p, made, &e->crossing, &is_other);
+    e->outcome = is_other ? DID_CHANGE : made == POLYGONIZER_SAME ? DID_NOTHING : DID_MAKE;
     if (r != STATUS_OK)
-        return r;
-    r = patch_fill(s, patch_at(s, slot), p, crossing);
-    if (r != STATUS_OK) {
-        if (fresh)
-            patch_close(s, slot);
-        return r;
+        e->outcome = DID_FAIL;
+}
+
+static void totals_settle(surface *s, const aged_brick *e, surface_counts *counts)
+{
+    patch *p = patch_at(s, e->slot);
+    totals_move(s, p, 1);
+    if (e->outcome == DID_CHANGE)
+        p->generation = ++s->generation;
+    if (e->outcome == DID_MAKE || e->outcome == DID_CHANGE) {
+        counts->patches++;
+        counts->triangles += p->triangle_count;
     }
-    counts->patches++;
-    counts->triangles += p->triangle_count;
-    return STATUS_OK;
 }
 
-static bool masks_meet(const brick_mask *a, const brick_mask *b)
+/* First the patches that go: only then is there room for as many new ones as the clay needs. */
+static status patches_open(surface *s)
 {
-    uint64_t both = 0;
-    for (int n = 0; n < BRICK_EDGE; n++)
-        both |= a->slab[n] & b->slab[n];
-    return both != 0;
-}
-
-static status brick_update(surface *s, const clay *c, const stale_entry *e, polygonizer *p, surface_counts *counts)
-{
-    const brick_mask none = {{0}}, *before = e->slot == POOL_NONE ? &none : &patch_at(s, e->slot)->crossing;
-    if (brick_mask_is_empty(&e->examined) && !masks_meet(&e->aged, before))
-        return STATUS_OK;
-    brick_mask now;
-    polygonizer_look(p, c, e->at);
-    polygonizer_crossing(p, &now);
-    for (int n = 0; n < BRICK_EDGE; n++)
-        now.slab[n] = (now.slab[n] & e->examined.slab[n]) | (before->slab[n] & ~e->examined.slab[n]);
-    if (!masks_meet(&e->aged, before) && !masks_meet(&e->aged, &now))
-        return STATUS_OK;
-    return patch_remake(s, p, e->at, e->slot, &now, counts);
+    status r = STATUS_OK;
+    for (uint32_t n = 0; n < aged_count(&s->aged); n++)
+        if (aged_at(&s->aged, n)->outcome == DO_CLOSE)
+            close_one(s, aged_at(&s->aged, n));
+    for (uint32_t n = 0; n < aged_count(&s->aged); n++) {
+        aged_brick *e = aged_at(&s->aged, n);
+        if (e->outcome == DO_OPEN && r == STATUS_OK)
+            r = open_one(s, e);
+        if (e->outcome == DO_RENEW) {
+            totals_move(s, patch_at(s, e->slot), -1);
+            slot_set(s, e->brick_id, e->slot);
+        }
+    }
+    return r;
 }
 
 status surface_update(surface *s, const clay *c, surface_counts *counts_out)
 {
     surface_counts counts = {0, 0, 0};
     polygonizer p;
-    stale_clear(&s->marks);
-    status r = stale_mark(&s->marks, &c->dirty);
+    status r = links_grow(s, c);
+    if (r == STATUS_OK)
+        r = aged_mark(&s->aged, c, s->orphans > 0);
+    if (r == STATUS_OK && counts_out)
+        r = examined_count(&s->examined, &c->dirty, &counts.treated);
     if (r != STATUS_OK)
         return r;
-    counts.treated = stale_examined(&s->marks);
-    for (uint32_t n = 0; n < stale_count(&s->marks); n++)
-        stale_at(&s->marks, n)->slot = avl_find(&s->tree, stale_at(&s->marks, n)->at);
-    /* First the patches there are: only then is there room for as many new ones as the clay needs. */
-    for (int fresh = 0; fresh < 2; fresh++)
-        for (uint32_t n = 0; n < stale_count(&s->marks) && r == STATUS_OK; n++)
-            if ((stale_at(&s->marks, n)->slot == POOL_NONE) == fresh)
-                r = brick_update(s, c, stale_at(&s->marks, n), &p, &counts);
+    for (uint32_t n = 0; n < aged_count(&s->aged); n++)
+        brick_examine(s, c, aged_at(&s->aged, n), &p);
+    r = patches_open(s);
+    for (uint32_t n = 0; n < aged_count(&s->aged); n++) {
+        aged_brick *e = aged_at(&s->aged, n);
+        if (e->slot == POOL_NONE || (e->outcome != DO_OPEN && e->outcome != DO_RENEW))
+            continue;
+        brick_renew(s, c, e, &p);
+        totals_settle(s, e, &counts);
+        if (e->outcome == DID_FAIL) {
+            r = STATUS_NO_MEMORY;
+            if (patch_at(s, e->slot)->generation == 0)
+                close_one(s, e);
+        }
+    }
     if (counts_out)
         *counts_out = counts;
     return r;
 }
 
-static status brick_rebuild(surface *s, const clay *c, key at, polygonizer *p, surface_counts *counts)
-{
-    brick_mask crossing;
-    polygonizer_look(p, c, at);
-    polygonizer_crossing(p, &crossing);
-    counts->treated += polygonizer_stored_cubes(p);
-    return patch_remake(s, p, at, POOL_NONE, &crossing, counts);
-}
+/* --- from nothing --- */
 
-/* The cubes of a brick that is not stored may reach up to seven stored ones: the first of those answers for it.
-   down, 0..7: how far that brick lies below b, an axis a bit. */
+/* Of the bricks that are not stored, the seven below a stored one may cross. Each is left to the first stored brick
+   above it. */
 static bool answers_for(const brick *b, int down)
 {
-    int di = down >> 2, dj = down >> 1 & 1, dk = down & 1;
-    for (int n = 0; n < down; n++) {
+    const int di = down >> 2, dj = down >> 1 & 1, dk = down & 1;
+    if (down != 0 && b->neighbour[brick_neighbour_index(-di, -dj, -dk)] != POOL_NONE)
+        return false;
+    for (int n = 1; n < down; n++) {
         int ni = n >> 2, nj = n >> 1 & 1, nk = n & 1;
         if (b->neighbour[brick_neighbour_index(ni - di, nj - dj, nk - dk)] != POOL_NONE)
             return false;
@@ -252,19 +328,65 @@ static bool answers_for(const brick *b, int down)
     return true;
 }
 
+/* Patches where nothing crosses any more make room first. */
+static void patches_sweep(surface *s, const clay *c, polygonizer *p)
+{
+    for (uint32_t slot = 0; slot < surface_slots(s); slot++) {
+        brick_mask crossing;
+        if (!surface_patch(s, slot))
+            continue;
+        key at = patch_at(s, slot)->at;
+        polygonizer_look(p, c, at, clay_find(c, at));
+        polygonizer_crossing(p, &crossing);
+        if (brick_mask_is_empty(&crossing))
+            patch_close(s, slot);
+    }
+}
+
+static status brick_rebuild(surface *s, const clay *c, key at, uint32_t brick_id, polygonizer *p,
+                            surface_counts *counts, bool counting)
+{
+    aged_brick e = {.at = at, .brick_id = brick_id};
+    bool is_other;
+    brick_examine(s, c, &e, p);
+    if (counting)
+        counts->treated += polygonizer_stored_cubes(p);
+    if (e.outcome == DO_NOTHING)
+        return STATUS_OK;
+    status r = STATUS_OK;
+    if (e.outcome == DO_OPEN)
+        r = open_one(s, &e);
+    else
+        totals_move(s, patch_at(s, e.slot), -1);
+    if (r != STATUS_OK)
+        return r;
+    slot_set(s, brick_id, e.slot);
+    polygonizer_make(p, &s->cases, &e.crossing);
+    r = patch_fill(patch_at(s, e.slot), p, POLYGONIZER_ALL, &e.crossing, &is_other);
+    e.outcome = r == STATUS_OK ? DID_CHANGE : DID_FAIL;
+    totals_settle(s, &e, counts);
+    if (r != STATUS_OK && patch_at(s, e.slot)->generation == 0)
+        close_one(s, &e);
+    return r;
+}
+
 status surface_rebuild(surface *s, const clay *c, surface_counts *counts_out)
 {
     surface_counts counts = {0, 0, 0};
     polygonizer p;
-    patches_clear(s);
     avl_walk w;
     key at;
     uint32_t id;
-    status r = STATUS_OK;
+    status r = links_grow(s, c);
+    if (r != STATUS_OK)
+        return r;
+    patches_sweep(s, c, &p);
+    memset(s->link, 0, s->links * sizeof *s->link); /* maybe those of other clay */
     for (bool more = avl_first(&w, &c->tree, &at, &id); more && r == STATUS_OK; more = avl_next(&w, &at, &id))
         for (int down = 0; down < 8 && r == STATUS_OK; down++)
             if (answers_for(clay_brick(c, id), down))
-                r = brick_rebuild(s, c, key_add(at, -(down >> 2), -(down >> 1 & 1), -(down & 1)), &p, &counts);
+                r = brick_rebuild(s, c, key_add(at, -(down >> 2), -(down >> 1 & 1), -(down & 1)),
+                                  down == 0 ? id : POOL_NONE, &p, &counts, counts_out != NULL);
     if (counts_out)
         *counts_out = counts;
     return r;

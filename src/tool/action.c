@@ -21,6 +21,9 @@ bool action_makes_clay(action a) { return a == ACTION_TOOTHPASTE || a == ACTION_
 /* The part of the effect that one dab has: amounts above one would overshoot and ring. */
 static float part(const action_setting *s) { return s->amount < 1 ? s->amount : 1; }
 
+/* amount w */
+static float contribution(const action_setting *s, float v_tool) { return s->amount / POTENTIAL_MAX * v_tool; }
+
 bool action_contributes(const action_setting *s, float v_tool)
 {
     if (!(v_tool > 0))
@@ -30,7 +33,7 @@ bool action_contributes(const action_setting *s, float v_tool)
     case ACTION_PAINTER: return true;
     case ACTION_STAMP:
     case ACTION_PRINT: return part(s) * deform_at(s->def, POTENTIAL_MAX - v_tool) != 0;
-    default: return s->amount * (v_tool / POTENTIAL_MAX) != 0;
+    default: return contribution(s, v_tool) != 0;
     }
 }
 
@@ -38,7 +41,7 @@ bool action_contributes(const action_setting *s, float v_tool)
 
 static void deposit(const action_setting *s, key at, float v_tool, float *potential, uint32_t *rgba)
 {
-    float f = *potential, d = s->amount * (v_tool / POTENTIAL_MAX);
+    float f = *potential, d = contribution(s, v_tool);
     if (!(d > 0))
         return;
     *rgba = f > POTENTIAL_MIN ? colour_mix(*rgba, s->rgba, d / (f + d), colour_dither(at, s->dab)) : s->rgba;
@@ -47,7 +50,7 @@ static void deposit(const action_setting *s, key at, float v_tool, float *potent
 
 static void paint_softly(const action_setting *s, key at, float v_tool, float f, uint32_t *rgba)
 {
-    float d = s->amount * (v_tool / POTENTIAL_MAX);
+    float d = contribution(s, v_tool);
     if (f > POTENTIAL_MIN && d > 0)
         *rgba = colour_mix(*rgba, s->rgba, d / (f + d), colour_dither(at, s->dab));
 }
@@ -83,8 +86,7 @@ static float low_pass(const float *apron)
     return one_two_one(plane[0], plane[1], plane[2]);
 }
 
-/* Mean colour of the clay round a corner, the nearer and denser the weightier; `none` where there is no clay. */
-static uint32_t colour_round(const float *apron, const uint32_t *apron_rgba, uint32_t none)
+uint32_t action_colour_round(const action_setting *s, const float *apron, const uint32_t *apron_rgba)
 {
     float weight = 0, channel[4] = {0, 0, 0, 0};
     for (int n = 0; n < 27; n++) {
@@ -95,7 +97,7 @@ static uint32_t colour_round(const float *apron, const uint32_t *apron_rgba, uin
             channel[c] += w * (float)colour_channel(apron_rgba[step], c);
     }
     if (!(weight > 0))
-        return none;
+        return s->rgba;
     uint32_t rgba = 0;
     for (int c = 0; c < 4; c++) {
         float v = channel[c] / weight + 0.5f;
@@ -108,9 +110,10 @@ static void smooth(const action_setting *s, float v_tool, const float *apron, co
                    float *potential, uint32_t *rgba)
 {
     float f = *potential;
-    *potential = f + part(s) * (v_tool / POTENTIAL_MAX) * (low_pass(apron) - f);
+    float to = f + part(s) / POTENTIAL_MAX * v_tool * (low_pass(apron) - f);
+    *potential = to > POTENTIAL_FAINT ? to : POTENTIAL_MIN;
     if (!(f > POTENTIAL_MIN) && *potential > POTENTIAL_MIN)
-        *rgba = colour_round(apron, apron_rgba, s->rgba);
+        *rgba = action_colour_round(s, apron, apron_rgba);
 }
 
 static void stamp(const action_setting *s, float v_tool, const float *apron, const uint32_t *apron_rgba,
@@ -119,7 +122,7 @@ static void stamp(const action_setting *s, float v_tool, const float *apron, con
     float f = *potential;
     *potential = f + part(s) * deform_at(s->def, POTENTIAL_MAX - v_tool);
     if (!(f > POTENTIAL_MIN) && *potential > POTENTIAL_MIN)
-        *rgba = colour_round(apron, apron_rgba, s->rgba);
+        *rgba = action_colour_round(s, apron, apron_rgba);
 }
 
 void action_row(const action_setting *s, key first, unsigned mask, const float v_tool[8], const float *apron_potential,
@@ -132,7 +135,7 @@ void action_row(const action_setting *s, key first, unsigned mask, const float v
         float v = v_tool[n];
         switch (s->kind) {
         case ACTION_TOOTHPASTE: deposit(s, key_add(first, 0, 0, n), v, &potential[n], &rgba[n]); break;
-        case ACTION_SOFT_ERASER: potential[n] -= s->amount * (v / POTENTIAL_MAX); break;
+        case ACTION_SOFT_ERASER: potential[n] -= contribution(s, v); break;
         case ACTION_ERASER: potential[n] = POTENTIAL_MIN; break;
         case ACTION_PAINTER: rgba[n] = s->rgba; break;
         case ACTION_SOFT_PAINTER: paint_softly(s, key_add(first, 0, 0, n), v, potential[n], &rgba[n]); break;

@@ -2,14 +2,16 @@
 /*
  * What:    What a tool does to a corner it reaches: the papers' actions, as functions of the corner, its neighbours
  *          and the tool's potential there.
- * Is not:  The walk (walk.h) or the writing (tool.h).
+ * Is not:  The walk (walk.h), the writing (tool.h), or fast: this is the definition, corner by corner, that the vectors
+ *          of action_rows.h are held to, bit by bit.
  * Shape:   w = v_tool / 3 in (0, 1]; amount = rate x time of the dab.
  *              toothpaste    F + amount w               colour mixed by contribution
  *              soft eraser   F - amount w
  *              eraser        removed where w > 0
  *              painter       the tool's colour where w > 0 and the corner exists
  *              soft painter  colour mixed, the tool weighing amount w against F
- *              smooth        F + min(amount,1) w (L[F] - F), L = binomial [1 2 1]/4 on each axis, old values
+ *              smooth        F + min(amount,1) w (L[F] - F), L = binomial [1 2 1]/4 on each axis, old values; what is
+ *                            left at or under POTENTIAL_FAINT is removed
  *              stamp         F + min(amount,1) def(3 - v_tool)      the long paper: a contribution
  *              print         F + min(amount,1) def(3 - v_tool) F    the short paper: a ratio of what is there
  * Units:   potential; amount in potential (or parts of one for smooth, stamp, print).
@@ -61,6 +63,8 @@ bool action_contributes(const action_setting *s, float v_tool);
    become (clay_brick_close clamps). Neighbour readers get the apron (side ACTION_APRON_SIDE, clay/apron.h) from the
    row's first corner on; others pass NULL. */
 enum { ACTION_APRON_SIDE = 10 };
+/* Mean colour of the clay round a corner, the nearer and denser the weightier; the tool's where there is no clay. */
+uint32_t action_colour_round(const action_setting *s, const float *apron, const uint32_t *apron_rgba);
 void action_row(const action_setting *s, key first, unsigned mask, const float v_tool[8], const float *apron_potential,
                 const uint32_t *apron_rgba, float potential[8], uint32_t rgba[8]);
 

@@ -2,162 +2,175 @@
 #include "tool/tool.h"
 
 #include "clay/apron.h"
+#include "tool/action_rows.h"
+#include "tool/census.h"
 #include "tool/walk.h"
 
 #include <math.h>
 #include <string.h>
 
-/* One brick of the dab: the tool's potential first, what the brick becomes afterwards. */
+/* One brick of the dab. */
 typedef struct tool_work {
-    key at;
-    brick_mask dirtied;
-    float v_tool[BRICK_CORNERS];
-    brick_page page;
-    bool needed; /* the clay has to be written here */
+    uint32_t id;        /* POOL_NONE: not stored yet */
+    bool is_dirtied;
+    brick_page *page;   /* in scratch, or NULL: the brick's own */
+    action_rows_brick rows;
 } tool_work;
 
 status tool_scratch_init(tool_scratch *s, uint32_t bricks)
 {
-    s->used = 0;
-    return pool_init(&s->pages, sizeof(tool_work), bricks);
+    memset(s, 0, sizeof *s);
+    status outcome = pool_init(&s->works, sizeof(tool_work), bricks);
+    return outcome == STATUS_OK ? pool_init(&s->pages, sizeof(brick_page), bricks) : outcome;
 }
 
-void tool_scratch_finish(tool_scratch *s) { pool_finish(&s->pages); }
-
-static tool_work *work_at(const tool_scratch *s, uint32_t n) { return (tool_work *)pool_at(&s->pages, n); }
-
-/* Evaluates the tool on one brick; counts, and says whether any corner is dirtied. */
-static bool evaluate(const tool *t, const action_setting *set, const walk *w, tool_work *work, tool_counts *counts)
+void tool_scratch_finish(tool_scratch *s)
 {
-    float start[3], x[8], y[8], z[8];
-    uint64_t dirtied = 0;
-    work->dirtied = (brick_mask){{0}};
-    walk_start(w, work->at, start);
-    for (int row = 0; row < BRICK_ROWS; row++) {
-        walk_row(w, start, row >> 3, row & 7, x, y, z);
-        unsigned inside = walk_inside(w, work->at, row >> 3, row & 7, x, y, z), hit = 0;
-        if (inside == 0)
-            continue;
-        float *v = work->v_tool + row * 8;
-        t->form.evaluate(t->form.self, x, y, z, v, 8);
-        for (int n = 0; n < 8; n++)
-            hit |= (unsigned)(inside >> n & 1 && action_contributes(set, v[n])) << n;
-        counts->computed += (uint64_t)__builtin_popcount(inside);
-        dirtied += (uint64_t)__builtin_popcount(hit);
-        work->dirtied.slab[row >> 3] |= (uint64_t)hit << ((row & 7) * 8);
+    pool_finish(&s->works);
+    pool_finish(&s->pages);
+}
+
+static tool_work *work_at(const tool_scratch *s, uint32_t n) { return (tool_work *)pool_at(&s->works, n); }
+
+/* Does the action have to see the brick as it was while others are written, or may it still come to nothing? */
+static bool needs_page(const action_setting *set, const clay *c, uint32_t id)
+{
+    return id == POOL_NONE || action_reads_neighbours(set->kind) ||
+           (c->changes.recording && clay_brick(c, id)->image == POOL_NONE);
+}
+
+static status work_add(const action_setting *set, const clay *c, key at, uint32_t id, tool_scratch *scratch)
+{
+    uint32_t n, page;
+    status s = pool_take(&scratch->works, &n);
+    if (s != STATUS_OK)
+        return s == STATUS_POOL_FULL ? STATUS_TOO_LARGE : s;
+    tool_work *work = work_at(scratch, n);
+    work->id = id;
+    work->page = NULL;
+    work->rows.at = at;
+    if (needs_page(set, c, id)) {
+        s = pool_take(&scratch->pages, &page);
+        if (s != STATUS_OK)
+            return s;
+        work->page = (brick_page *)pool_at(&scratch->pages, page);
     }
-    counts->dirtied += dirtied;
-    return dirtied > 0;
+    return STATUS_OK;
 }
 
-/* First pass: which bricks, with what potential of the tool. */
-static status gather(const tool *t, const action_setting *set, const walk *w, tool_scratch *scratch,
-                     tool_counts *counts)
+/* Which bricks the tool's box touches; where there is no clay and none can come to be, only if all are wanted. */
+static status gather(const action_setting *set, const walk *w, const clay *c, tool_scratch *scratch, bool all)
 {
+    pool_clear(&scratch->works);
     pool_clear(&scratch->pages);
-    scratch->used = 0;
-    uint32_t id = POOL_NONE;
     key at;
     for (at.i = w->bricks.min.i; at.i <= w->bricks.max.i; at.i++)
-        for (at.j = w->bricks.min.j; at.j <= w->bricks.max.j; at.j++)
+        for (at.j = w->bricks.min.j; at.j <= w->bricks.max.j; at.j++) {
+            uint32_t id = POOL_NONE;
             for (at.k = w->bricks.min.k; at.k <= w->bricks.max.k; at.k++) {
-                if (!walk_touches(w, at))
+                id = clay_find_beyond(c, id, at);
+                if (!walk_touches(w, at) || (id == POOL_NONE && !all && !action_makes_clay(set->kind)))
                     continue;
-                if (id == POOL_NONE) {
-                    status s = pool_take(&scratch->pages, &id);
-                    if (s != STATUS_OK)
-                        return s == STATUS_POOL_FULL ? STATUS_TOO_LARGE : s;
-                }
-                work_at(scratch, id)->at = at;
-                if (evaluate(t, set, w, work_at(scratch, id), counts)) {
-                    assert(id == scratch->used);
-                    scratch->used++;
-                    id = POOL_NONE; /* used up; otherwise the page serves the next brick */
-                }
+                status s = work_add(set, c, at, id, scratch);
+                if (s != STATUS_OK)
+                    return s;
             }
-    counts->bricks = scratch->used;
+        }
     return STATUS_OK;
 }
 
-static bool page_has_clay(const brick_page *p)
+/* Clay that smooth or stamp made out of nothing takes the colour of the clay round it. */
+static void colour_fresh(const action_setting *set, const clay *c, const uint32_t ids[BRICK_NEIGHBOURS],
+                         const float *apron, const action_rows_brick *rows)
 {
-    for (int n = 0; n < BRICK_CORNERS; n++)
-        if (p->potential[n] > POTENTIAL_MIN)
-            return true;
-    return false;
-}
-
-/* Second pass: what each brick becomes, old values only, nothing written to the clay. */
-static void act(const action_setting *set, const clay *c, tool_work *work, uint32_t id)
-{
-    float apron[APRON_CORNERS_MAX];
     uint32_t apron_rgba[APRON_CORNERS_MAX];
-    bool near = action_reads_neighbours(set->kind);
-    if (id != POOL_NONE)
-        work->page = *clay_brick(c, id)->page;
-    else
-        memset(&work->page, 0, sizeof work->page);
+    if (brick_mask_is_empty(&rows->fresh))
+        return;
+    apron_gather(c, ids, 8, NULL, apron_rgba);
+    for (int di = 0; di < BRICK_EDGE; di++)
+        for (uint64_t left = rows->fresh.slab[di]; left; left &= left - 1) {
+            int n = __builtin_ctzll(left);
+            int place = ((di + 1) * ACTION_APRON_SIDE + (n >> 3) + 1) * ACTION_APRON_SIDE + (n & 7) + 1;
+            rows->page->rgba[di * 64 + n] = action_colour_round(set, apron + place, apron_rgba + place);
+        }
+}
+
+/* What the brick becomes, on its own page or in scratch. Reads the clay, and writes none of it but that page. */
+static void act(const action_rows_dab *dab, const clay *c, tool_work *work)
+{
+    const brick *b = work->id == POOL_NONE ? NULL : clay_brick(c, work->id);
+    float apron[APRON_CORNERS_MAX], mean[BRICK_CORNERS];
+    uint32_t ids[BRICK_NEIGHBOURS];
+    bool near = action_reads_neighbours(dab->set->kind);
+    work->rows.page = work->page ? work->page : b->page;
+    work->rows.mean = dab->set->kind == ACTION_SMOOTH ? mean : NULL;
+    memset(&work->rows.now, 0, sizeof work->rows.now);
+    memset(&work->rows.fresh, 0, sizeof work->rows.fresh);
+    if (b) {
+        work->rows.now.inside = b->inside;
+        work->rows.now.stored = b->stored;
+    }
+    if (work->page && b)
+        *work->page = *b->page;
+    else if (work->page)
+        memset(work->page, 0, sizeof *work->page);
     if (near) {
-        uint32_t ids[BRICK_NEIGHBOURS];
-        clay_neighbours(c, work->at, ids);
-        apron_gather(c, ids, 8, apron, apron_rgba);
+        clay_neighbours(c, work->rows.at, ids);
+        apron_gather(c, ids, 8, apron, NULL);
     }
-    key first = key_of_brick(work->at);
-    for (int row = 0; row < BRICK_ROWS; row++) {
-        unsigned mask = (unsigned)(work->dirtied.slab[row >> 3] >> ((row & 7) * 8)) & 255u;
-        if (mask == 0)
-            continue;
-        int place = (((row >> 3) + 1) * ACTION_APRON_SIDE + (row & 7) + 1) * ACTION_APRON_SIDE + 1;
-        action_row(set, key_add(first, row >> 3, row & 7, 0), mask, work->v_tool + row * 8, near ? apron + place : NULL,
-                   near ? apron_rgba + place : NULL, work->page.potential + row * 8, work->page.rgba + row * 8);
-    }
-    work->needed = id != POOL_NONE || (action_makes_clay(set->kind) && page_has_clay(&work->page));
+    if (work->rows.mean)
+        action_rows_mean(apron, mean, c->rows);
+    work->is_dirtied = action_rows(dab, &work->rows, c->rows);
+    if (near)
+        colour_fresh(dab->set, c, ids, apron, &work->rows);
 }
 
-/* Marks come first, so that whatever was opened is closed and pruned without fail. Memory the pools have not asked
-   the machine for yet may still be refused in the middle: then what was written goes back. */
-static status write_back(clay *c, tool_scratch *scratch, uint32_t *written)
+/* Acts on the bricks in scratch, or on those where they lie. */
+static void act_all(const action_rows_dab *dab, const clay *c, const tool_scratch *scratch, bool in_scratch)
 {
-    *written = 0;
-    for (uint32_t n = 0; n < scratch->used; n++) {
-        status s = dirt_mark(&c->dirty, work_at(scratch, n)->at, &work_at(scratch, n)->dirtied);
-        if (s != STATUS_OK)
-            return s;
-    }
-    for (; *written < scratch->used; ++*written) {
-        tool_work *work = work_at(scratch, *written);
-        if (!work->needed)
-            continue;
-        uint32_t id;
-        status s = clay_brick_open(c, work->at, &id);
-        if (s != STATUS_OK)
-            return s;
-        brick_page before = *clay_brick(c, id)->page;
-        *clay_brick(c, id)->page = work->page;
-        work->page = before;
-        s = clay_brick_close(c, id, &work->dirtied);
-        assert(s == STATUS_OK);
-    }
-    return STATUS_OK;
+    for (uint32_t n = 0; n < scratch->works.count; n++)
+        if ((work_at(scratch, n)->page != NULL) == in_scratch)
+            act(dab, c, work_at(scratch, n));
 }
 
-static void put_back(clay *c, tool_scratch *scratch, uint32_t written)
+/* A new brick is made only for clay. Without it, what the tool passed is at most marked. */
+static bool stays_absent(const tool_work *work) { return work->id == POOL_NONE && work->rows.now.stored == 0; }
+
+/* What was acted on in scratch is known; of the others, all are taken for dirtied. */
+static status reserve(clay *c, const tool_scratch *scratch)
 {
-    for (uint32_t n = 0; n < written; n++) {
-        tool_work *work = work_at(scratch, n);
-        if (!work->needed)
-            continue;
-        uint32_t id = clay_find(c, work->at);
-        *clay_brick(c, id)->page = work->page;
-        status s = clay_brick_close(c, id, &work->dirtied);
-        assert(s == STATUS_OK);
+    clay_need need = {0, 0, 0};
+    for (uint32_t n = 0; n < scratch->works.count; n++) {
+        const tool_work *work = work_at(scratch, n);
+        if (!work->page || work->is_dirtied)
+            clay_need_add(c, &need, work->rows.at, work->id, !stays_absent(work));
     }
-    clay_prune(c);
+    return clay_reserve(c, &need);
+}
+
+/* Room was reserved: what is opened here cannot be refused. */
+static void settle(clay *c, tool_work *work)
+{
+    status s = STATUS_OK;
+    if (!work->is_dirtied)
+        return;
+    if (stays_absent(work)) {
+        s = dirt_mark(&c->dirty, work->rows.at, &work->rows.now.dirtied);
+        assert(s == STATUS_OK);
+        return;
+    }
+    if (work->page) {
+        s = clay_brick_open(c, work->rows.at, &work->id);
+        assert(s == STATUS_OK);
+        *clay_brick(c, work->id)->page = *work->page;
+    }
+    clay_brick_settle(c, work->id, &work->rows.now);
 }
 
 status tool_apply(const tool *t, const tool_dab *d, clay *c, tool_scratch *scratch, tool_counts *counts_out)
 {
-    memset(counts_out, 0, sizeof *counts_out);
+    if (counts_out)
+        memset(counts_out, 0, sizeof *counts_out);
     if (!(d->amount >= 0 && d->amount <= TOOL_AMOUNT_MAX) || (int)t->kind < 0 || (int)t->kind >= ACTION_COUNT)
         return STATUS_BAD_PARAMETER;
     walk w;
@@ -165,26 +178,19 @@ status tool_apply(const tool *t, const tool_dab *d, clay *c, tool_scratch *scrat
     if (s != STATUS_OK)
         return s;
     const action_setting set = {t->kind, t->rgba, (float)d->amount, &t->def, d->number};
-    tool_counts counts = {.visited = (uint64_t)w.visited};
-    s = gather(t, &set, &w, scratch, &counts);
+    const action_rows_dab dab = action_rows_begin(&set, &t->form, &w);
+    s = gather(&set, &w, c, scratch, counts_out != NULL);
     if (s != STATUS_OK)
         return s;
-    clay_need need = {0, 0, 0};
-    for (uint32_t n = 0; n < scratch->used; n++) {
-        tool_work *work = work_at(scratch, n);
-        act(&set, c, work, clay_find(c, work->at));
-        clay_need_add(c, &need, work->at, work->needed);
-    }
-    s = clay_need_fits(c, &need);
+    act_all(&dab, c, scratch, true);
+    s = reserve(c, scratch);
     if (s != STATUS_OK)
         return s;
-    uint32_t written;
-    s = write_back(c, scratch, &written);
-    if (s != STATUS_OK) {
-        put_back(c, scratch, written);
-        return s;
-    }
+    act_all(&dab, c, scratch, false);
+    for (uint32_t n = 0; n < scratch->works.count; n++)
+        settle(c, work_at(scratch, n));
     clay_prune(c);
-    *counts_out = counts;
+    if (counts_out)
+        *counts_out = census_take(&t->form, &set, &w);
     return STATUS_OK;
 }

@@ -3,13 +3,15 @@
  * What:    A tool, and one dab of it: the whole of paper 000 section 3.2 up to the surface. Corners under the tool are
  *          read, acted on and written back, brick by brick; the counts are the paper's.
  * Is not:  A stroke (station cuts those into dabs); the surface's update (surface.h); undo (history.h).
- * Shape:   tool_apply: walk -> which bricks -> room? -> new pages into scratch -> scratch into the clay. Nothing is
- *          written before everything that could be refused has been asked for; smoothing reads old values only.
+ * Shape:   tool_apply: walk -> which bricks -> act in scratch -> room? -> act in place -> settle. Bricks that are new,
+ *          not yet imaged, or read by their neighbours (smooth, stamp) are acted on in scratch, from old values only;
+ *          then room is asked for; only then are the others written, where they lie.
  * Units:   lattice steps; amounts in potential.
  * Owner:   the caller owns everything; scratch is kept between dabs to spare allocations.
  * Errors:  STATUS_BAD_POSE, STATUS_BAD_PARAMETER (amount negative, NaN or over TOOL_AMOUNT_MAX), STATUS_OUT_OF_RANGE,
  *          STATUS_TOO_LARGE, STATUS_POOL_FULL, STATUS_NO_MEMORY: the dab is refused whole, the clay is as it was.
- * Cost:    a box test per visited brick, an evaluation per computed corner, one tree entry per brick.
+ * Cost:    a box test per visited brick, a vector step per few corners, one tree entry per row of bricks. Counting
+ *          walks the box once more, corner by corner, and takes many times as long as the dab.
  * Source:  000 sections 3.2, 4, 6.
  */
 #ifndef GLAISE_TOOL_TOOL_H
@@ -48,13 +50,14 @@ typedef struct tool_counts {
 } tool_counts;
 
 typedef struct tool_scratch {
-    pool pages;    /* tool_work, one a brick of the dab */
-    uint32_t used; /* pages are taken in order */
+    pool works; /* one a brick that the tool's box touches */
+    pool pages; /* for those that are not acted on where they lie */
 } tool_scratch;
 
 STATUS_CHECKED status tool_scratch_init(tool_scratch *s, uint32_t bricks);
 void tool_scratch_finish(tool_scratch *s);
 
+/* counts_out: NULL where nobody counts. */
 STATUS_CHECKED status tool_apply(const tool *t, const tool_dab *d, clay *c, tool_scratch *scratch,
                                  tool_counts *counts_out);
 

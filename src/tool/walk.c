@@ -46,9 +46,10 @@ status walk_begin(walk *w, const frame *f, const shape *s)
         w->origin[a] = f->origin[a];
         w->lo[a] = s->lo[a];
         w->hi[a] = s->hi[a];
-        for (int c = 0; c < 3; c++)
-            for (int n = 0; n < 8; n++)
-                w->along[c][a][n] = (float)(w->row[a][c] * n);
+        for (int n = 0; n < 8; n++)
+            w->along[a][n] = (float)(w->row[a][0] * n);
+        for (int n = 0; n < 64; n++)
+            w->plane[a][n] = (float)(w->row[a][1] * (n >> 3) + w->row[a][2] * (n & 7));
     }
     return range_set(w, f);
 }
@@ -94,9 +95,9 @@ void walk_row(const walk *w, const float start[3], int di, int dj, float x[8], f
 {
     float *out[3] = {x, y, z};
     for (int a = 0; a < 3; a++) {
-        float at = start[a] + w->along[0][a][di] + w->along[1][a][dj];
+        float at = start[a] + w->along[a][di];
         for (int n = 0; n < 8; n++)
-            out[a][n] = at + w->along[2][a][n];
+            out[a][n] = at + w->plane[a][dj * 8 + n];
     }
 }
 

@@ -5,8 +5,8 @@
  * Is not:  The evaluation of the tool (shape.h) or what is done to the corners (action.h).
  * Shape:   box: per axis k from floor(c_k - e_k) to floor(c_k + e_k), e_k the half extents of the oriented box.
  *          Walked by brick, rows of eight. Per brick one point is transformed; corner (di,dj,dk) of it lies at
- *              start + along[0][di] + along[1][dj] + along[2][dk]
- *          so the only error against the direct transform is the rounding of three float additions.
+ *              start + along[di] + plane[dj][dk]
+ *          so the only error against the direct transform is the rounding of these numbers and two float additions.
  * Units:   lattice steps outside, the shape's units inside.
  * Errors:  see walk_begin.
  * Cost:    bricks whose box misses the oriented box are rejected whole; visited counts their corners all the same,
@@ -31,7 +31,8 @@ typedef struct walk {
     double row[3][3]; /* tool from key */
     double origin[3];
     double lo[3], hi[3];      /* the shape's support, tool space */
-    float along[3][3][8];     /* [key axis][tool axis][steps] displacement */
+    float along[3][8];        /* [tool axis][di] displacement */
+    float plane[3][64];       /* [tool axis][dj * 8 + dk] displacement */
     double visited;           /* corners in the range */
 } walk;
 

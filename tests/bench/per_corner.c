@@ -165,15 +165,15 @@ static void step_to(const walk *w, key at, float row[3], float point_out[3])
     if (at.k == w->corners.min.k || (at.k & 7) == 0) {
         walk_start(w, key_brick(at), row);
         for (int a = 0; a < 3; a++)
-            row[a] = row[a] + w->along[0][a][at.i & 7] + w->along[1][a][at.j & 7];
+            row[a] += w->along[a][at.i & 7];
     }
     for (int a = 0; a < 3; a++)
-        point_out[a] = row[a] + w->along[2][a][at.k & 7];
+        point_out[a] = row[a] + w->plane[a][(at.j & 7) * 8 + (at.k & 7)];
 }
 
 status per_corner_apply(per_corner *p, action kind, uint32_t rgba, const tool_dab *d, tool_counts *counts_out)
 {
-    const shape unit_ball = {NULL, NULL, {-1, -1, -1}, {1, 1, 1}};
+    const shape unit_ball = {NULL, NULL, {-1, -1, -1}, {1, 1, 1}, true};
     assert(kind == ACTION_TOOTHPASTE || kind == ACTION_SOFT_ERASER);
     memset(counts_out, 0, sizeof *counts_out);
     float amount = (float)d->amount, row[3] = {0, 0, 0}, x[3];
@@ -190,7 +190,7 @@ status per_corner_apply(per_corner *p, action kind, uint32_t rgba, const tool_da
                 if (!(x[0] > -1 && x[0] < 1 && x[1] > -1 && x[1] < 1 && x[2] > -1 && x[2] < 1))
                     continue;
                 counts_out->computed++;
-                float contribution = amount * (wyvill(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / POTENTIAL_MAX);
+                float contribution = amount / POTENTIAL_MAX * wyvill(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
                 if (!(contribution > 0))
                     continue;
                 counts_out->dirtied++;

@@ -219,6 +219,10 @@ inline plain_dab_corner plain_dab_act(const tool &t, double amount, const plain_
         const plain_dab_round round = plain_dab_look_round(before, at);
         out.potential = f + part * v / 3 * (round.mean - f);
         out.slack = part * dv + 3e-6;
+        if (out.potential <= static_cast<double>(POTENTIAL_FAINT) - out.slack)
+            out.potential = out.slack = 0;
+        else if (out.potential <= static_cast<double>(POTENTIAL_FAINT) + out.slack)
+            out.slack += out.potential;
         if (!(f > 0))
             plain_dab_new_clay(out, round, t.rgba);
         break;

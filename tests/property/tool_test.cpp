@@ -129,8 +129,8 @@ reach reach_of(const walk &w, const double p[3])
 
 bool is_marked(const clay &c, key at)
 {
-    const uint32_t id = avl_find(&c.dirty.index, key_brick(at));
-    return id != POOL_NONE && brick_mask_has(&dirt_at(&c.dirty, id)->corners, key_slot(at));
+    const dirt_entry *dirty = clay_dirt(&c, key_brick(at));
+    return dirty && brick_mask_has(&dirty->corners, key_slot(at));
 }
 
 /* Is there surely a contribution? Amounts of nothing count as none, except where an action asks no amount. */

@@ -211,9 +211,9 @@ TEST(checkpoint, old_and_new_bricks_are_dirty_afterwards)
     checkpoint_trouble why;
     ASSERT_EQ(read(&to.c, written(&from.c), &why), STATUS_OK);
     for (const key at : {key{0, 0, 1}, key{0, 0, 9}, key{0, 0, 10}, key{100, 0, 0}, key{200, 0, 0}}) {
-        const uint32_t n = avl_find(&to.c.dirty.index, key_brick(at));
-        ASSERT_NE(n, POOL_NONE) << at.i << " " << at.k;
-        EXPECT_TRUE(brick_mask_has(&dirt_at(&to.c.dirty, n)->corners, key_slot(at)));
+        const dirt_entry *dirty = clay_dirt(&to.c, key_brick(at));
+        ASSERT_NE(dirty, nullptr) << at.i << " " << at.k;
+        EXPECT_TRUE(brick_mask_has(&dirty->corners, key_slot(at)));
     }
 }
 

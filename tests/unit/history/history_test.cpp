@@ -104,10 +104,10 @@ TEST(history, what_opening_brings_up_is_all_dirty)
     key at;
     uint32_t id;
     for (bool more = avl_first(&w, &q.c.tree, &at, &id); more; more = avl_next(&w, &at, &id)) {
-        const uint32_t entry = avl_find(&q.c.dirty.index, at);
-        ASSERT_NE(entry, POOL_NONE);
+        const dirt_entry *dirty = clay_dirt(&q.c, at);
+        ASSERT_NE(dirty, nullptr);
         for (int slot = 0; slot < BRICK_CORNERS; slot++)
-            ASSERT_TRUE(brick_mask_has(&dirt_at(&q.c.dirty, entry)->corners, slot));
+            ASSERT_TRUE(brick_mask_has(&dirty->corners, slot));
     }
 }
 

@@ -167,9 +167,9 @@ TEST(undo_file, marks_exactly_what_changed)
             marked += static_cast<uint64_t>(__builtin_popcountll(word));
     EXPECT_EQ(marked, 3u);
     for (const piece_corner &corner : two_bricks) {
-        const uint32_t at = avl_find(&p.c.dirty.index, key_brick(corner.at));
-        ASSERT_NE(at, POOL_NONE);
-        EXPECT_TRUE(brick_mask_has(&dirt_at(&p.c.dirty, at)->corners, key_slot(corner.at)));
+        const dirt_entry *dirty = clay_dirt(&p.c, key_brick(corner.at));
+        ASSERT_NE(dirty, nullptr);
+        EXPECT_TRUE(brick_mask_has(&dirty->corners, key_slot(corner.at)));
     }
 }
 

@@ -121,7 +121,8 @@ TEST(polygonizer, stored_cubes_are_those_with_a_stored_corner)
     uint64_t sum = 0;
     const auto p = std::make_unique<polygonizer>();
     for (int n = 0; n < 64; n++) {
-        polygonizer_look(p.get(), &s.field, {(n >> 4) - 2, (n >> 2 & 3) - 2, (n & 3) - 2});
+        const key at = {(n >> 4) - 2, (n >> 2 & 3) - 2, (n & 3) - 2};
+        polygonizer_look(p.get(), &s.field, at, clay_find(&s.field, at));
         sum += polygonizer_stored_cubes(p.get());
     }
     EXPECT_EQ(sum, mesh_oracle_cubes(mesh_oracle_stored(&s.field)).size());

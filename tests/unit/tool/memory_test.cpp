@@ -156,13 +156,13 @@ protected:
 TEST_F(memory_ends, in_a_dab)
 {
     for (action kind : {ACTION_TOOTHPASTE, ACTION_ERASER, ACTION_STAMP})
-        expect_whole_or_nothing([&](size_t bytes) { return dab_with(bytes, kind, false); }, 5);
+        expect_whole_or_nothing([&](size_t bytes) { return dab_with(bytes, kind, false); }, 4);
 }
 
 TEST_F(memory_ends, in_a_dab_of_a_stroke)
 {
     for (action kind : {ACTION_TOOTHPASTE, ACTION_SMOOTH})
-        expect_whole_or_nothing([&](size_t bytes) { return dab_with(bytes, kind, true); }, 5);
+        expect_whole_or_nothing([&](size_t bytes) { return dab_with(bytes, kind, true); }, 4);
 }
 
 TEST_F(memory_ends, in_a_copy)

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What:    The widest vectors of the instruction set a file is compiled for: VEC_LANES floats or integers that are
+ *          computed with at once. + - * / & | ^ ~ << >> between vectors are the compiler's own.
+ * Is not:  A choice at run time (lanes.h): only *_rows.c files include it.
+ * Shape:   vec_f floats, vec_i int32, vec_u uint32, vec_m one truth a lane. VEC_LANES is 4, 8 or 16, so that a slab of
+ *          64 corners is a whole number of vectors. Everything rounds as the scalar operation does.
+ * Errors:  None.
+ */
+#ifndef GLAISE_LATTICE_VEC_H
+#define GLAISE_LATTICE_VEC_H
+
+#include <stdint.h>
+#include <string.h>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#else
+#include <math.h>
+#endif
+
+#if defined(__AVX512F__)
+enum { VEC_LANES = 16 };
+#elif defined(__AVX2__)
+enum { VEC_LANES = 8 };
+#else
+enum { VEC_LANES = 4 };
+#endif
+
+typedef float vec_f __attribute__((vector_size(VEC_LANES * 4)));
+typedef int32_t vec_i __attribute__((vector_size(VEC_LANES * 4)));
+typedef uint32_t vec_u __attribute__((vector_size(VEC_LANES * 4)));
+
+#define VEC_INLINE static inline __attribute__((always_inline))
+
+VEC_INLINE vec_f vec_load(const float *p)
+{
+    vec_f v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+VEC_INLINE void vec_store(float *p, vec_f v) { memcpy(p, &v, sizeof v); }
+VEC_INLINE vec_u vec_load_u(const uint32_t *p)
+{
+    vec_u v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+VEC_INLINE void vec_store_u(uint32_t *p, vec_u v) { memcpy(p, &v, sizeof v); }
+
+/* The same in every lane. (x - 0 is x, bit by bit.) */
+VEC_INLINE vec_f vec_all(float x)
+{
+    const vec_f zero = {0};
+    return x - zero;
+}
+VEC_INLINE vec_u vec_all_u(uint32_t x)
+{
+    const vec_u zero = {0};
+    return x - zero;
+}
+
+VEC_INLINE vec_f vec_float_of(vec_i v) { return __builtin_convertvector(v, vec_f); }
+/* Towards zero; in int32's range. */
+VEC_INLINE vec_i vec_int_of(vec_f v) { return __builtin_convertvector(v, vec_i); }
+
+#if defined(__AVX512F__)
+
+typedef __mmask16 vec_m;
+VEC_INLINE vec_m vec_gt(vec_f a, vec_f b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GT_OQ); }
+VEC_INLINE vec_m vec_ge(vec_f a, vec_f b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GE_OQ); }
+VEC_INLINE vec_m vec_ne(vec_f a, vec_f b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_NEQ_UQ); }
+VEC_INLINE vec_f vec_pick(vec_m m, vec_f yes, vec_f no)
+{
+    return (vec_f)_mm512_mask_blend_ps(m, (__m512)no, (__m512)yes);
+}
+VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no)
+{
+    return (vec_u)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
+}
+/* Bit n: lane n. */
+VEC_INLINE unsigned vec_bits(vec_m m) { return m; }
+VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm512_sqrt_ps((__m512)v); }
+
+#elif defined(__AVX2__)
+
+typedef vec_i vec_m;
+VEC_INLINE vec_m vec_gt(vec_f a, vec_f b) { return a > b; }
+VEC_INLINE vec_m vec_ge(vec_f a, vec_f b) { return a >= b; }
+VEC_INLINE vec_m vec_ne(vec_f a, vec_f b) { return a != b; }
+VEC_INLINE vec_f vec_pick(vec_m m, vec_f yes, vec_f no)
+{
+    return (vec_f)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)m);
+}
+VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no) { return (vec_u)vec_pick(m, (vec_f)yes, (vec_f)no); }
+/* Bit n: lane n. */
+VEC_INLINE unsigned vec_bits(vec_m m) { return (unsigned)_mm256_movemask_ps((__m256)m); }
+VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm256_sqrt_ps((__m256)v); }
+
+#else
+
+typedef vec_i vec_m;
+VEC_INLINE vec_m vec_gt(vec_f a, vec_f b) { return a > b; }
+VEC_INLINE vec_m vec_ge(vec_f a, vec_f b) { return a >= b; }
+VEC_INLINE vec_m vec_ne(vec_f a, vec_f b) { return a != b; }
+VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no) { return (yes & (vec_u)m) | (no & ~(vec_u)m); }
+VEC_INLINE vec_f vec_pick(vec_m m, vec_f yes, vec_f no) { return (vec_f)vec_pick_u(m, (vec_u)yes, (vec_u)no); }
+#if defined(__SSE2__)
+/* Bit n: lane n. */
+VEC_INLINE unsigned vec_bits(vec_m m) { return (unsigned)_mm_movemask_ps((__m128)m); }
+VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm_sqrt_ps((__m128)v); }
+#else
+/* Bit n: lane n. */
+VEC_INLINE unsigned vec_bits(vec_m m)
+{
+    const vec_i places = {1, 2, 4, 8};
+    const vec_i one_each = m & places;
+    return (unsigned)(one_each[0] | one_each[1] | one_each[2] | one_each[3]);
+}
+VEC_INLINE vec_f vec_sqrt(vec_f v)
+{
+    const vec_f root = {sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])};
+    return root;
+}
+#endif
+
+#endif
+#endif

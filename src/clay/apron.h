@@ -19,6 +19,14 @@ extern "C" {
 
 enum { APRON_LO = -1, APRON_HI_MAX = 9, APRON_SIDE_MAX = 11, APRON_CORNERS_MAX = 1331 };
 
+/* Rows of an apron: corners from..to (inclusive) along i and j. */
+typedef struct apron_rows {
+    int8_t from_i, to_i, from_j, to_j;
+} apron_rows;
+
+/* Only some rows of the potentials; the others are left as they are. */
+void apron_gather_rows(const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS], int hi, apron_rows rows,
+                       float *potential);
 /* Either may be NULL. hi in 8..9. */
 void apron_gather(const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS], int hi, float *potential, uint32_t *rgba);
 

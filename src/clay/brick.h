@@ -72,6 +72,17 @@ static inline bool brick_mask_is_empty(const brick_mask *m)
     return any == 0;
 }
 
+/* Has it a corner at or over iso on the border to the brick `down` (an axis a bit: i 4, j 2, k 1) below? Where that one
+   is not stored, only then can cubes between them cross the surface. */
+static inline bool brick_comes_to_border(const brick *b, int down)
+{
+    const uint64_t k_first = 0x0101010101010101u, rows = down & 2 ? 0xff : ~(uint64_t)0;
+    uint64_t any = b->inside.slab[0];
+    for (int di = 1; di < BRICK_EDGE && !(down & 4); di++)
+        any |= b->inside.slab[di];
+    return (any & rows & (down & 1 ? k_first : ~(uint64_t)0)) != 0;
+}
+
 #ifdef __cplusplus
 }
 #endif

@@ -85,12 +85,6 @@ STATUS_CHECKED status clay_reserve(clay *c, const clay_need *need);
 /* Ids of the 27 bricks round a brick key, POOL_NONE where absent; by links when the brick itself is stored. */
 void clay_neighbours(const clay *c, key brick_at, uint32_t ids_out[BRICK_NEIGHBOURS]);
 
-/* The brick after `from` (an id, or POOL_NONE) along k, whose key is `next`: by a link where there is one to follow. */
-static inline uint32_t clay_find_beyond(const clay *c, uint32_t from, key next)
-{
-    return from == POOL_NONE ? clay_find(c, next) : clay_brick(c, from)->neighbour[BRICK_SELF + 1];
-}
-
 /* Brick for writing; made empty if absent; its image is kept if a change is being recorded. */
 STATUS_CHECKED status clay_brick_open(clay *c, key brick_at, uint32_t *id_out);
 /* Ends writing: `dirtied` says which corners had a contribution. Restores the invariant of brick.h on all 512 corners

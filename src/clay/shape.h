@@ -22,6 +22,7 @@ typedef struct shape {
     const void *self;
     void (*evaluate)(const void *self, const float *x, const float *y, const float *z, float *potential, int n);
     double lo[3], hi[3]; /* support: the potential is 0 unless lo < p < hi on every axis */
+    bool is_ball;        /* the potential is 0 outside the unit ball as well */
     bool wyvill;         /* evaluate is Wyvill's of the unit ball (tool/ellipsoid.h): row kernels need not call it */
 } shape;
 

@@ -179,6 +179,20 @@ bool avl_first(avl_walk *w, const avl *t, key *k_out, uint32_t *value_out)
     return avl_next(w, k_out, value_out);
 }
 
+bool avl_seek(avl_walk *w, const avl *t, key from, key *k_out, uint32_t *value_out)
+{
+    w->tree = t;
+    w->depth = 0;
+    for (uint32_t id = t->root; id != POOL_NONE;) {
+        const avl_node *n = node_at(t, id);
+        bool is_smaller = key_compare(n->at, from) < 0;
+        if (!is_smaller)
+            w->stack[w->depth++] = id; /* comes after what lies below it on the left */
+        id = n->child[is_smaller];
+    }
+    return avl_next(w, k_out, value_out);
+}
+
 bool avl_next(avl_walk *w, key *k_out, uint32_t *value_out)
 {
     if (w->depth == 0)

@@ -57,6 +57,8 @@ STATUS_CHECKED status avl_insert(avl *t, key k, uint32_t value);
 uint32_t avl_remove(avl *t, key k);
 
 bool avl_first(avl_walk *w, const avl *t, key *k_out, uint32_t *value_out);
+/* The same from the first key that is not smaller than `from`. */
+bool avl_seek(avl_walk *w, const avl *t, key from, key *k_out, uint32_t *value_out);
 bool avl_next(avl_walk *w, key *k_out, uint32_t *value_out);
 
 /* Order, heights and balance hold everywhere. O(n): for tests. */

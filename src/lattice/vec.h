@@ -78,6 +78,9 @@ VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no)
 {
     return (vec_u)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
 }
+/* a < b ? a : b, and a > b ? a : b: the second where one is not a number. */
+VEC_INLINE vec_f vec_least(vec_f a, vec_f b) { return (vec_f)_mm512_min_ps((__m512)a, (__m512)b); }
+VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm512_max_ps((__m512)a, (__m512)b); }
 /* Bit n: lane n. */
 VEC_INLINE unsigned vec_bits(vec_m m) { return m; }
 VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm512_sqrt_ps((__m512)v); }
@@ -93,7 +96,8 @@ VEC_INLINE vec_f vec_pick(vec_m m, vec_f yes, vec_f no)
     return (vec_f)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)m);
 }
 VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no) { return (vec_u)vec_pick(m, (vec_f)yes, (vec_f)no); }
-/* Bit n: lane n. */
+VEC_INLINE vec_f vec_least(vec_f a, vec_f b) { return (vec_f)_mm256_min_ps((__m256)a, (__m256)b); }
+VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm256_max_ps((__m256)a, (__m256)b); }
 VEC_INLINE unsigned vec_bits(vec_m m) { return (unsigned)_mm256_movemask_ps((__m256)m); }
 VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm256_sqrt_ps((__m256)v); }
 
@@ -106,11 +110,13 @@ VEC_INLINE vec_m vec_ne(vec_f a, vec_f b) { return a != b; }
 VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no) { return (yes & (vec_u)m) | (no & ~(vec_u)m); }
 VEC_INLINE vec_f vec_pick(vec_m m, vec_f yes, vec_f no) { return (vec_f)vec_pick_u(m, (vec_u)yes, (vec_u)no); }
 #if defined(__SSE2__)
-/* Bit n: lane n. */
+VEC_INLINE vec_f vec_least(vec_f a, vec_f b) { return (vec_f)_mm_min_ps((__m128)a, (__m128)b); }
+VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm_max_ps((__m128)a, (__m128)b); }
 VEC_INLINE unsigned vec_bits(vec_m m) { return (unsigned)_mm_movemask_ps((__m128)m); }
 VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm_sqrt_ps((__m128)v); }
 #else
-/* Bit n: lane n. */
+VEC_INLINE vec_f vec_least(vec_f a, vec_f b) { return vec_pick(a < b, a, b); }
+VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return vec_pick(a > b, a, b); }
 VEC_INLINE unsigned vec_bits(vec_m m)
 {
     const vec_i places = {1, 2, 4, 8};

@@ -123,9 +123,10 @@ status sculpture_apply_surface(sculpture *s, surface_counts *counts_out)
 
 status sculpture_apply(sculpture *s, const tool *t, const sculpture_dab *d, sculpture_counts *counts_out)
 {
-    memset(counts_out, 0, sizeof *counts_out);
-    status outcome = sculpture_apply_field(s, t, d, &counts_out->tool);
-    return outcome == STATUS_OK ? sculpture_apply_surface(s, &counts_out->surface) : outcome;
+    if (counts_out)
+        memset(counts_out, 0, sizeof *counts_out);
+    status outcome = sculpture_apply_field(s, t, d, counts_out ? &counts_out->tool : NULL);
+    return outcome == STATUS_OK ? sculpture_apply_surface(s, counts_out ? &counts_out->surface : NULL) : outcome;
 }
 
 status sculpture_stroke_end(sculpture *s)

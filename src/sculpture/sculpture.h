@@ -66,6 +66,7 @@ STATUS_CHECKED status sculpture_open(sculpture *s, const byte_store *store, uint
 STATUS_CHECKED status sculpture_close(sculpture *s);
 
 void sculpture_stroke_begin(sculpture *s);
+/* counts_out: NULL where nobody counts, here and in the halves below; counting costs more than the dab. */
 STATUS_CHECKED status sculpture_apply(sculpture *s, const tool *t, const sculpture_dab *d,
                                       sculpture_counts *counts_out);
 /* The two halves of sculpture_apply, for those who time them apart: the field, then the surface. */

@@ -57,6 +57,7 @@ static status entry_make(aged *a, key at, uint32_t brick_id, uint32_t *n_out)
     aged_brick *e = aged_at(a, *n_out);
     e->at = at;
     e->brick_id = brick_id;
+    e->is_known = false;
     return STATUS_OK;
 }
 
@@ -80,47 +81,46 @@ static status absent_add(aged *a, key at)
     if (r != STATUS_OK)
         return r;
     memset(&aged_at(a, n)->corners, 0xff, sizeof(brick_mask));
+    aged_at(a, n)->is_known = true;
     return avl_insert(&a->absent, at, n);
 }
 
 /* --- which bricks --- */
 
-/* Which neighbours' patches see a corner of the mask, or one of the six round it: [axis][0] below, [axis][1] above. */
-static void reach_of(const brick_mask *m, bool reach[3][2])
+/* Neighbours as a set: bit n is that of brick_neighbour_index. */
+enum {
+    BELOW_I = 0x1ff, LEVEL_I = BELOW_I << 9, ABOVE_I = BELOW_I << 18,
+    BELOW_J = 7 | 7 << 9 | 7 << 18, LEVEL_J = BELOW_J << 3, ABOVE_J = BELOW_J << 6,
+    BELOW_K = 0x1249249, LEVEL_K = BELOW_K << 1, ABOVE_K = BELOW_K << 2,
+    /* An aged corner above lies in a face neighbour: no patch two steps up sees it. */
+    TWICE_ABOVE = (ABOVE_I & ABOVE_J) | (ABOVE_I & ABOVE_K) | (ABOVE_J & ABOVE_K),
+};
+
+/* Those whose patches see a corner of the mask, or one of the six round it. */
+static uint32_t reach_of(const brick_mask *m)
 {
     uint64_t any = 0;
     for (int n = 0; n < BRICK_EDGE; n++)
         any |= m->slab[n];
-    reach[0][0] = (m->slab[0] | m->slab[1]) != 0;
-    reach[0][1] = m->slab[7] != 0;
-    reach[1][0] = (any & 0xffff) != 0;
-    reach[1][1] = any >> 56 != 0;
-    reach[2][0] = (any & (K_FIRST | K_FIRST << 1)) != 0;
-    reach[2][1] = (any & K_LAST) != 0;
-}
-
-/* An aged corner in a brick above lies in a face neighbour: steps up along two axes lead to none. */
-static bool is_reached(bool reach[3][2], int n)
-{
-    const int d[3] = {n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1};
-    int ups = 0;
-    for (int a = 0; a < 3; a++) {
-        if (d[a] != 0 && !reach[a][d[a] > 0])
-            return false;
-        ups += d[a] > 0;
-    }
-    return ups <= 1;
+    uint32_t i = LEVEL_I, j = LEVEL_J, k = LEVEL_K;
+    i |= (m->slab[0] | m->slab[1]) != 0 ? BELOW_I : 0;
+    i |= m->slab[7] != 0 ? ABOVE_I : 0;
+    j |= (any & 0xffff) != 0 ? BELOW_J : 0;
+    j |= any >> 56 != 0 ? ABOVE_J : 0;
+    k |= (any & (K_FIRST | K_FIRST << 1)) != 0 ? BELOW_K : 0;
+    k |= (any & K_LAST) != 0 ? ABOVE_K : 0;
+    return i & j & k & ~(uint32_t)TWICE_ABOVE;
 }
 
 static status stored_reach(aged *a, const clay *c, uint32_t brick_id, const brick_mask *dirtied)
 {
     const brick *b = clay_brick(c, brick_id);
-    bool reach[3][2];
     status r = STATUS_OK;
-    reach_of(dirtied, reach);
-    for (int n = 0; n < BRICK_NEIGHBOURS && r == STATUS_OK; n++)
-        if (b->neighbour[n] != POOL_NONE && is_reached(reach, n))
-            r = stored_add(a, c, b->neighbour[n]);
+    for (uint32_t left = reach_of(dirtied); left && r == STATUS_OK; left &= left - 1) {
+        uint32_t id = b->neighbour[__builtin_ctz(left)];
+        if (id != POOL_NONE)
+            r = stored_add(a, c, id);
+    }
     return r;
 }
 
@@ -140,27 +140,13 @@ static status gone_reach(aged *a, const clay *c, key at)
     return r;
 }
 
-/* May the patch of the absent brick `down` (an axis a bit) below b cross? It does only where the clay comes to its
-   border at once. */
-static bool comes_to_border(const brick *b, int down)
-{
-    for (int di = 0; di < BRICK_EDGE; di++) {
-        uint64_t w = b->inside.slab[di];
-        w &= down & 2 ? 0xff : ~(uint64_t)0;
-        w &= down & 1 ? K_FIRST : ~(uint64_t)0;
-        if (w != 0 && (di == 0 || !(down & 4)))
-            return true;
-    }
-    return false;
-}
-
 static status borders_add(aged *a, const clay *c, uint32_t brick_id, bool orphans)
 {
     const brick *b = clay_brick(c, brick_id);
     status r = STATUS_OK;
     for (int down = 1; down < 8 && r == STATUS_OK; down++) {
         const int di = -(down >> 2), dj = -(down >> 1 & 1), dk = -(down & 1);
-        if (b->neighbour[brick_neighbour_index(di, dj, dk)] == POOL_NONE && (orphans || comes_to_border(b, down)))
+        if (b->neighbour[brick_neighbour_index(di, dj, dk)] == POOL_NONE && (orphans || brick_comes_to_border(b, down)))
             r = absent_add(a, key_add(b->at, di, dj, dk));
     }
     return r;
@@ -206,23 +192,27 @@ static void corners_age(aged_brick *e, const clay *c, bool gone)
     }
 }
 
+void aged_corners(aged *a, const clay *c, uint32_t brick_id)
+{
+    const aged_link *link = &a->link[brick_id];
+    if (link->round != a->round || aged_at(a, link->entry)->is_known)
+        return;
+    corners_age(aged_at(a, link->entry), c, a->gone);
+    aged_at(a, link->entry)->is_known = true;
+}
+
 status aged_mark(aged *a, const clay *c, bool orphans)
 {
-    bool gone = false;
     status r = begin(a, c);
+    a->gone = false;
     for (uint32_t n = 0; n < dirt_count(&c->dirty) && r == STATUS_OK; n++) {
         const dirt_entry *d = dirt_at(&c->dirty, n);
-        gone |= d->brick_id == POOL_NONE;
+        a->gone |= d->brick_id == POOL_NONE;
         r = d->brick_id == POOL_NONE ? gone_reach(a, c, d->at) : stored_reach(a, c, d->brick_id, &d->corners);
     }
     uint32_t count = aged_count(a);
-    for (uint32_t n = 0; n < count && r == STATUS_OK; n++) {
-        aged_brick *e = aged_at(a, n);
-        if (e->brick_id == POOL_NONE)
-            continue;
-        corners_age(e, c, gone);
-        if (!brick_mask_is_empty(&e->corners))
-            r = borders_add(a, c, e->brick_id, orphans);
-    }
+    for (uint32_t n = 0; n < count && r == STATUS_OK; n++)
+        if (aged_at(a, n)->brick_id != POOL_NONE)
+            r = borders_add(a, c, aged_at(a, n)->brick_id, orphans);
     return r;
 }

@@ -9,7 +9,8 @@
  *          aged; it is listed only where it may have a patch.
  * Owner:   surface: scratch of one update. Ids of entries hold until the next aged_mark.
  * Errors:  STATUS_NO_MEMORY; STATUS_POOL_FULL beyond the limit.
- * Cost:    words of 64 corners, some 150 ns a brick; no search for stored bricks.
+ * Cost:    some 20 ns a brick to list it, words of 64 corners to age it, which is done only where it is asked for; no
+ *          search for stored bricks.
  * Source:  000 section 3.2. We differ: the paper lets the normals beside a dab age.
  */
 #ifndef GLAISE_SURFACE_AGED_H
@@ -24,7 +25,8 @@ extern "C" {
 typedef struct aged_brick {
     key at;         /* brick key */
     uint32_t brick_id; /* POOL_NONE: not stored */
-    brick_mask corners;
+    brick_mask corners; /* where is_known */
+    bool is_known;
     /* For the surface's own use while it works the entries off. */
     brick_mask crossing;
     uint32_t slot;
@@ -41,6 +43,7 @@ typedef struct aged {
     aged_link *link; /* of brick ids */
     uint32_t links;
     uint32_t round;  /* links of other rounds are void */
+    bool gone;       /* a dirty brick is not stored any more */
 } aged;
 
 STATUS_CHECKED status aged_init(aged *a, uint32_t limit);
@@ -51,6 +54,8 @@ STATUS_CHECKED status aged_mark(aged *a, const clay *c, bool orphans);
 
 static inline uint32_t aged_count(const aged *a) { return a->entries.count; }
 static inline aged_brick *aged_at(const aged *a, uint32_t n) { return (aged_brick *)pool_at(&a->entries, n); }
+/* Finds out the aged corners of a stored brick, if it is listed. */
+void aged_corners(aged *a, const clay *c, uint32_t brick_id);
 /* Entry of a stored brick, NULL when it has none. */
 static inline const aged_brick *aged_of(const aged *a, uint32_t brick_id)
 {

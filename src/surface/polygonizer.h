@@ -26,7 +26,8 @@
 extern "C" {
 #endif
 
-enum { POLYGONIZER_TRIANGLES_MAX = (int)BRICK_CORNERS * (int)CASE_TABLE_TRIANGLES_MAX };
+/* The last cube's triangles are written as the most a cube can have. */
+enum { POLYGONIZER_TRIANGLES_MAX = (int)BRICK_CORNERS * (int)CASE_TABLE_TRIANGLES_MAX + (int)CASE_TABLE_TRIANGLES_MAX };
 
 /* One bit for each corner 0..8 an axis: [di][dj], bit dk. */
 typedef struct polygonizer_bits {
@@ -49,6 +50,7 @@ typedef struct polygonizer {
     float potential[APRON_CORNERS_MAX]; /* corners -1..9 an axis */
     uint16_t vertex_of[PATCH_EDGE_NAMES];    /* of cut edges only */
     uint32_t vertex_count, triangle_count, order_count;
+    uint16_t first[PATCH_SIDE]; /* as the patch's */
     polygonizer_order orders[PATCH_VERTICES_MAX];
     patch_vertex vertices[PATCH_VERTICES_MAX];
     uint16_t triangles[POLYGONIZER_TRIANGLES_MAX][3];
@@ -57,7 +59,7 @@ typedef struct polygonizer {
 /* What became of a patch. */
 typedef enum polygonizer_outcome {
     POLYGONIZER_SAME,     /* no vertex was made */
-    POLYGONIZER_VERTICES, /* `vertices` are new, the patch's triangles hold */
+    POLYGONIZER_VERTICES, /* those of `vertices` that `orders` name are new; the patch's others and triangles hold */
     POLYGONIZER_ALL,      /* vertices and triangles are new */
 } polygonizer_outcome;
 

@@ -29,7 +29,7 @@ static void rows_join(const brick_mask *const mask[8], polygonizer_bits *out)
 }
 
 /* Bit n of nine becomes bit 3 n. */
-static inline unsigned spread_by_three(unsigned x)
+static inline __attribute__((always_inline)) unsigned spread_by_three(unsigned x)
 {
 #if defined(__BMI2__)
     return _pdep_u32(x, 0x1249249u);
@@ -42,7 +42,7 @@ static inline unsigned spread_by_three(unsigned x)
 }
 
 /* Bit n of nine becomes bit 4 n. */
-static inline uint64_t spread_by_four(unsigned x)
+static inline __attribute__((always_inline)) uint64_t spread_by_four(unsigned x)
 {
     uint64_t low = x & 0xff;
     low = (low | low << 12) & 0x000f000fu;
@@ -142,6 +142,23 @@ static inline void batch_write(const batch *b, int n, const polygonizer_order *o
     v->edge = (uint32_t)(((o->d[0] * PATCH_SIDE + o->d[1]) * PATCH_SIDE + o->d[2]) * 3 + o->axis);
 }
 
+/* The rows that hold the corners of the edges ordered, and those round them. */
+static apron_rows rows_needed(const polygonizer *p)
+{
+    /* Orders ascend along i. */
+    const polygonizer_order *first = &p->orders[0], *last = &p->orders[p->order_count - 1];
+    apron_rows r = {(int8_t)(first->d[0] - 1), (int8_t)(last->d[0] + 2), BRICK_EDGE, 0};
+    for (uint32_t n = 0; n < p->order_count; n++) {
+        int8_t dj = (int8_t)p->orders[n].d[1];
+        r.from_j = dj < r.from_j ? dj : r.from_j;
+        r.to_j = dj > r.to_j ? dj : r.to_j;
+    }
+    r.to_i = r.to_i > APRON_HI_MAX ? APRON_HI_MAX : r.to_i;
+    r.from_j = (int8_t)(r.from_j - 1);
+    r.to_j = r.to_j + 2 > APRON_HI_MAX ? APRON_HI_MAX : (int8_t)(r.to_j + 2);
+    return r;
+}
+
 /* Makes the vertices ordered. The last batch is filled up with its first vertex. */
 static void orders_carry_out(polygonizer *p)
 {
@@ -160,7 +177,7 @@ static void orders_carry_out(polygonizer *p)
 /* --- cut edges --- */
 
 /* A row's cut edges, bit dk * 3 + axis. */
-static inline unsigned edges_cut(const polygonizer_bits *in, int di, int dj)
+static inline __attribute__((always_inline)) unsigned edges_cut(const polygonizer_bits *in, int di, int dj)
 {
     unsigned row = in->row[di][dj];
     unsigned cut_i = di < BRICK_EDGE ? row ^ in->row[di + 1][dj] : 0;
@@ -172,7 +189,7 @@ static inline unsigned edges_cut(const polygonizer_bits *in, int di, int dj)
 }
 
 /* A row's edges with an aged corner, likewise. */
-static inline unsigned edges_aged(const polygonizer_bits *aged, int di, int dj)
+static inline __attribute__((always_inline)) unsigned edges_aged(const polygonizer_bits *aged, int di, int dj)
 {
     unsigned row = aged->row[di][dj];
     unsigned i = di < BRICK_EDGE ? row | aged->row[di + 1][dj] : row, j = dj < BRICK_EDGE ? row | aged->row[di][dj + 1]
@@ -180,10 +197,11 @@ static inline unsigned edges_aged(const polygonizer_bits *aged, int di, int dj)
     return spread_by_three(i) | spread_by_three(j) << 1 | spread_by_three(row | row >> 1) << 2;
 }
 
-static inline void order_add(polygonizer *p, int di, int dj, int name, uint32_t vertex)
+static inline __attribute__((always_inline)) void order_add(polygonizer *p, int di, int dj, int name, uint32_t vertex)
 {
+    const uint8_t dk = (uint8_t)(name * 43 >> 7); /* a third, of what a row has */
     p->orders[p->order_count++] =
-        (polygonizer_order){(uint16_t)vertex, {(uint8_t)di, (uint8_t)dj, (uint8_t)(name / 3)}, (uint8_t)(name % 3)};
+        (polygonizer_order){(uint16_t)vertex, {(uint8_t)di, (uint8_t)dj, dk}, (uint8_t)(name - 3 * dk)};
 }
 
 /* All vertices in their order: those of aged edges are ordered, the others taken from the old patch. */
@@ -191,7 +209,8 @@ static void vertices_renew(polygonizer *p, const polygonizer_bits *aged, const p
 {
     const patch_vertex *from = old ? old->vertices : NULL;
     uint32_t count = 0;
-    for (int di = 0; di < PATCH_SIDE; di++)
+    for (int di = 0; di < PATCH_SIDE; di++) {
+        p->first[di] = (uint16_t)count;
         for (int dj = 0; dj < PATCH_SIDE; dj++) {
             unsigned left = edges_cut(&p->inside, di, dj), made = aged ? edges_aged(aged, di, dj) : ~0u;
             const int row = (di * PATCH_SIDE + dj) * ROW_EDGES;
@@ -208,14 +227,25 @@ static void vertices_renew(polygonizer *p, const polygonizer_bits *aged, const p
                 p->vertices[count] = *from;
             }
         }
+    }
     p->vertex_count = count;
+}
+
+static bool slab_is_aged(const polygonizer_bits *aged, int di)
+{
+    unsigned any = 0;
+    for (int dj = 0; dj < PATCH_SIDE; dj++)
+        any |= aged->row[di][dj] | (di < BRICK_EDGE ? aged->row[di + 1][dj] : 0);
+    return any != 0;
 }
 
 /* No corner changed sides: each vertex stays in its place, those of aged edges are ordered. */
 static void vertices_refresh(polygonizer *p, const polygonizer_bits *aged, const patch *old)
 {
-    uint32_t count = 0;
-    for (int di = 0; di < PATCH_SIDE; di++)
+    for (int di = 0; di < PATCH_SIDE; di++) {
+        uint32_t count = old->first[di], end = di < BRICK_EDGE ? old->first[di + 1] : old->vertex_count;
+        if (count == end || !slab_is_aged(aged, di))
+            continue;
         for (int dj = 0; dj < PATCH_SIDE; dj++) {
             unsigned cut = edges_cut(&p->inside, di, dj);
             if (cut == 0)
@@ -227,12 +257,23 @@ static void vertices_refresh(polygonizer *p, const polygonizer_bits *aged, const
             }
             count += (uint32_t)__builtin_popcount(cut);
         }
-    p->vertex_count = count;
-    if (p->order_count > 0)
-        memcpy(p->vertices, old->vertices, count * sizeof *p->vertices);
+    }
+    p->vertex_count = old->vertex_count;
 }
 
 /* --- triangles --- */
+
+/* A cube's triangles by its edges' names; the table knows edges only. Writes more than there are: the next cube's come
+   over them. */
+static inline void triangles_of(uint16_t *out, const uint16_t *vertex, const uint8_t *e, const int *name, int count)
+{
+    enum { USUAL = 2 };
+    for (int n = 0; n < USUAL * 3; n++)
+        out[n] = vertex[name[e[n]]];
+    if (count > USUAL)
+        for (int n = USUAL * 3; n < CASE_TABLE_TRIANGLES_MAX * 3; n++)
+            out[n] = vertex[name[e[n]]];
+}
 
 static void triangles_make(polygonizer *p, const case_table *t, const brick_mask *crossing)
 {
@@ -242,7 +283,7 @@ static void triangles_make(polygonizer *p, const case_table *t, const brick_mask
         case_table_edge(e, &c, &to);
         name[e] = (((c & 1) * PATCH_SIDE + (c >> 1 & 1)) * PATCH_SIDE + (c >> 2)) * 3 + e / 4;
     }
-    uint16_t(*out)[3] = p->triangles;
+    uint16_t *const begin = (uint16_t *)p->triangles, *out = begin;
     for (int di = 0; di < BRICK_EDGE; di++)
         for (int dj = 0; dj < BRICK_EDGE; dj++) {
             unsigned left = (unsigned)(crossing->slab[di] >> (8 * dj)) & 0xff;
@@ -255,14 +296,12 @@ static void triangles_make(polygonizer *p, const case_table *t, const brick_mask
             for (; left; left &= left - 1) {
                 int dk = __builtin_ctz(left);
                 unsigned index = (unsigned)(corners >> (4 * dk)) & 0xff;
-                const uint16_t *vertex = &p->vertex_of[((di * PATCH_SIDE + dj) * PATCH_SIDE + dk) * 3];
-                const uint8_t *e = t->edge[index];
-                for (int n = 0; n < t->triangles[index]; n++, e += 3, out++)
-                    for (int corner = 0; corner < 3; corner++)
-                        (*out)[corner] = vertex[name[e[corner]]];
+                triangles_of(out, &p->vertex_of[((di * PATCH_SIDE + dj) * PATCH_SIDE + dk) * 3], t->edge[index], name,
+                             t->triangles[index]);
+                out += 3 * t->triangles[index];
             }
         }
-    p->triangle_count = (uint32_t)(out - p->triangles);
+    p->triangle_count = (uint32_t)(out - begin) / 3;
 }
 
 polygonizer_outcome LANES_NAMED(polygonizer_run)(polygonizer *p, const case_table *t, const brick_mask *crossing,
@@ -292,8 +331,8 @@ polygonizer_outcome LANES_NAMED(polygonizer_run)(polygonizer *p, const case_tabl
         uint32_t neighbours[BRICK_NEIGHBOURS];
         if (p->brick_id == POOL_NONE)
             clay_neighbours(p->of, p->at, neighbours);
-        apron_gather(p->of, p->brick_id == POOL_NONE ? neighbours : clay_brick(p->of, p->brick_id)->neighbour,
-                     APRON_HI_MAX, p->potential, NULL);
+        apron_gather_rows(p->of, p->brick_id == POOL_NONE ? neighbours : clay_brick(p->of, p->brick_id)->neighbour,
+                          APRON_HI_MAX, rows_needed(p), p->potential);
         orders_carry_out(p);
     }
     if (is_same)

@@ -124,34 +124,40 @@ static status patch_grow(patch *p, uint32_t vertices, uint32_t triangles)
     return STATUS_OK;
 }
 
-static bool patch_equals(const patch *p, const polygonizer *made, bool with_triangles)
+/* No corner changed sides: answers whether any of the vertices made is another one. */
+static bool vertices_take(patch *p, const polygonizer *made)
 {
-    return p->vertex_count == made->vertex_count &&
-           memcmp(p->vertices, made->vertices, p->vertex_count * sizeof *p->vertices) == 0 &&
-           (!with_triangles ||
-            (p->triangle_count == made->triangle_count &&
-             memcmp(p->triangles, made->triangles, p->triangle_count * sizeof *p->triangles) == 0));
+    bool is_other = false;
+    for (uint32_t n = 0; n < made->order_count; n++) {
+        uint32_t v = made->orders[n].vertex;
+        is_other |= memcmp(&p->vertices[v], &made->vertices[v], sizeof *p->vertices) != 0;
+        p->vertices[v] = made->vertices[v];
+    }
+    return is_other;
 }
 
 /* The patch becomes what was made, or stays whole. The totals are the caller's. */
 static status patch_fill(patch *p, const polygonizer *made, polygonizer_outcome outcome, const brick_mask *crossing,
                          bool *is_other)
 {
-    bool all = outcome == POLYGONIZER_ALL;
-    status r = all ? patch_grow(p, made->vertex_count, made->triangle_count) : STATUS_OK;
-    *is_other = r == STATUS_OK && outcome != POLYGONIZER_SAME && !patch_equals(p, made, all);
-    if (!*is_other)
-        return r;
-    p->vertex_count = made->vertex_count;
-    memcpy(p->vertices, made->vertices, p->vertex_count * sizeof *p->vertices);
-    if (all) {
+    *is_other = false;
+    status r = STATUS_OK;
+    if (outcome == POLYGONIZER_VERTICES)
+        *is_other = vertices_take(p, made);
+    if (outcome == POLYGONIZER_ALL)
+        r = patch_grow(p, made->vertex_count, made->triangle_count);
+    if (outcome == POLYGONIZER_ALL && r == STATUS_OK) {
+        *is_other = true;
+        p->vertex_count = made->vertex_count;
         p->triangle_count = made->triangle_count;
+        memcpy(p->vertices, made->vertices, p->vertex_count * sizeof *p->vertices);
         memcpy(p->triangles, made->triangles, p->triangle_count * sizeof *p->triangles);
         memcpy(p->inside, made->inside.row, sizeof p->inside);
+        memcpy(p->first, made->first, sizeof p->first);
         p->crossing = *crossing;
     }
-    p->digest_known = false;
-    return STATUS_OK;
+    p->digest_known &= !*is_other;
+    return r;
 }
 
 /* --- the way from a brick to its patch --- */
@@ -176,7 +182,9 @@ static uint32_t slot_of(surface *s, const clay *c, uint32_t brick_id, key at)
         return avl_find(&s->tree, at);
     surface_link *link = &s->link[brick_id];
     uint64_t born = clay_brick(c, brick_id)->born;
-    if (link->born != born)
+    bool is_void = link->slot != POOL_NONE && (link->slot >= surface_slots(s) || !surface_patch(s, link->slot) ||
+                                               !key_equal(patch_at(s, link->slot)->at, at));
+    if (link->born != born || is_void)
         *link = (surface_link){born, avl_find(&s->tree, at)};
     return link->slot;
 }
@@ -261,8 +269,18 @@ static void totals_settle(surface *s, const aged_brick *e, surface_counts *count
     }
 }
 
+/* The corners of a patch lie in its brick and the seven above. */
+static void above_age(surface *s, const clay *c, const aged_brick *e)
+{
+    for (int n = 0; n < 8 && e->brick_id != POOL_NONE; n++) {
+        uint32_t id = clay_brick(c, e->brick_id)->neighbour[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)];
+        if (id != POOL_NONE)
+            aged_corners(&s->aged, c, id);
+    }
+}
+
 /* First the patches that go: only then is there room for as many new ones as the clay needs. */
-static status patches_open(surface *s)
+static status patches_open(surface *s, const clay *c)
 {
     status r = STATUS_OK;
     for (uint32_t n = 0; n < aged_count(&s->aged); n++)
@@ -275,6 +293,7 @@ static status patches_open(surface *s)
         if (e->outcome == DO_RENEW) {
             totals_move(s, patch_at(s, e->slot), -1);
             slot_set(s, e->brick_id, e->slot);
+            above_age(s, c, e);
         }
     }
     return r;
@@ -293,7 +312,7 @@ status surface_update(surface *s, const clay *c, surface_counts *counts_out)
         return r;
     for (uint32_t n = 0; n < aged_count(&s->aged); n++)
         brick_examine(s, c, aged_at(&s->aged, n), &p);
-    r = patches_open(s);
+    r = patches_open(s, c);
     for (uint32_t n = 0; n < aged_count(&s->aged); n++) {
         aged_brick *e = aged_at(&s->aged, n);
         if (e->slot == POOL_NONE || (e->outcome != DO_OPEN && e->outcome != DO_RENEW))
@@ -328,6 +347,18 @@ static bool answers_for(const brick *b, int down)
     return true;
 }
 
+/* May the absent brick `down` below b cross? Asked of all the bricks above it. */
+static bool may_cross(const clay *c, const brick *b, int down)
+{
+    for (int up = 1; up < 8; up++) {
+        int di = (up >> 2) - (down >> 2), dj = (up >> 1 & 1) - (down >> 1 & 1), dk = (up & 1) - (down & 1);
+        uint32_t id = b->neighbour[brick_neighbour_index(di, dj, dk)];
+        if (id != POOL_NONE && brick_comes_to_border(clay_brick(c, id), up))
+            return true;
+    }
+    return false;
+}
+
 /* Patches where nothing crosses any more make room first. */
 static void patches_sweep(surface *s, const clay *c, polygonizer *p)
 {
@@ -354,6 +385,10 @@ static status brick_rebuild(surface *s, const clay *c, key at, uint32_t brick_id
     if (e.outcome == DO_NOTHING)
         return STATUS_OK;
     status r = STATUS_OK;
+    if (e.outcome == DO_OPEN && avl_find(&s->tree, at) != POOL_NONE) { /* the link was another clay's */
+        e.slot = avl_find(&s->tree, at);
+        e.outcome = DO_RENEW;
+    }
     if (e.outcome == DO_OPEN)
         r = open_one(s, &e);
     else
@@ -381,10 +416,10 @@ status surface_rebuild(surface *s, const clay *c, surface_counts *counts_out)
     if (r != STATUS_OK)
         return r;
     patches_sweep(s, c, &p);
-    memset(s->link, 0, s->links * sizeof *s->link); /* maybe those of other clay */
     for (bool more = avl_first(&w, &c->tree, &at, &id); more && r == STATUS_OK; more = avl_next(&w, &at, &id))
         for (int down = 0; down < 8 && r == STATUS_OK; down++)
-            if (answers_for(clay_brick(c, id), down))
+            if (down == 0 || (answers_for(clay_brick(c, id), down) &&
+                              (counts_out != NULL || may_cross(c, clay_brick(c, id), down))))
                 r = brick_rebuild(s, c, key_add(at, -(down >> 2), -(down >> 1 & 1), -(down & 1)),
                                   down == 0 ? id : POOL_NONE, &p, &counts, counts_out != NULL);
     if (counts_out)

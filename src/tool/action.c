@@ -41,7 +41,8 @@ bool action_contributes(const action_setting *s, float v_tool)
 
 static void deposit(const action_setting *s, key at, float v_tool, float *potential, uint32_t *rgba)
 {
-    float f = *potential, d = contribution(s, v_tool);
+    float f = *potential, d = contribution(s, v_tool), room = POTENTIAL_MAX - f;
+    d = d < room ? d : room;
     if (!(d > 0))
         return;
     *rgba = f > POTENTIAL_MIN ? colour_mix(*rgba, s->rgba, d / (f + d), colour_dither(at, s->dab)) : s->rgba;

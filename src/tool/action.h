@@ -5,7 +5,7 @@
  * Is not:  The walk (walk.h), the writing (tool.h), or fast: this is the definition, corner by corner, that the vectors
  *          of action_rows.h are held to, bit by bit.
  * Shape:   w = v_tool / 3 in (0, 1]; amount = rate x time of the dab.
- *              toothpaste    F + amount w               colour mixed by contribution
+ *              toothpaste    F + min(amount w, 3 - F)   colour mixed by contribution; a full corner takes no more
  *              soft eraser   F - amount w
  *              eraser        removed where w > 0
  *              painter       the tool's colour where w > 0 and the corner exists

@@ -75,8 +75,11 @@ KERNEL outcome act(const action kind, const action_setting *s, const constants *
     switch (kind) {
     case ACTION_TOOTHPASTE:
         o.dirtied = vec_gt(d, zero);
+        d = vec_least(d, POTENTIAL_MAX - f);
         o.potential = f + d;
-        o.rgba = vec_pick_u(vec_gt(f, zero), mix(k, rgba, d / (f + d), dither), vec_all_u(s->rgba));
+        o.rgba = rgba;
+        if (vec_bits(vec_gt(d, zero)) != 0) /* not all are full */
+            o.rgba = vec_pick_u(vec_gt(f, zero), mix(k, rgba, d / (f + d), dither), vec_all_u(s->rgba));
         break;
     case ACTION_SOFT_ERASER:
         o.dirtied = vec_gt(d, zero);
@@ -106,30 +109,40 @@ KERNEL outcome act(const action kind, const action_setting *s, const constants *
     return o;
 }
 
-/* Replaces the bits of one vector's lanes. */
-KERNEL void bits_put(uint64_t *slab, int n, unsigned bits)
+/* What comes of a slab, gathered in words. */
+typedef struct slab_words {
+    uint64_t reached; /* by the tool: of the others nothing was looked at */
+    uint64_t was, is; /* clay, before and now, where reached */
+    uint64_t inside, dirtied, moved;
+} slab_words;
+
+/* Writes what became of some corners. */
+KERNEL void settle(const action kind, float *potential, uint32_t *rgba_at, int n, vec_f f, vec_u rgba, outcome o,
+                   slab_words *w)
 {
-    const uint64_t lanes_all = ((uint64_t)1 << VEC_LANES) - 1;
-    *slab = (*slab & ~(lanes_all << n)) | (uint64_t)bits << n;
+    const vec_f zero = vec_all(POTENTIAL_MIN);
+    const bool moves = kind != ACTION_PAINTER && kind != ACTION_SOFT_PAINTER, adds = kind == ACTION_TOOTHPASTE;
+    vec_f to = vec_pick(o.dirtied, vec_most(vec_least(o.potential, vec_all(POTENTIAL_MAX)), zero), f);
+    vec_m is = vec_gt(to, zero);
+    vec_u coloured = vec_pick_u(o.dirtied, o.rgba, rgba);
+    if (moves)
+        vec_store(potential, to);
+    vec_store_u(rgba_at, adds ? coloured : vec_pick_u(is, coloured, vec_all_u(COLOUR_NONE)));
+    w->reached |= (((uint64_t)1 << VEC_LANES) - 1) << n;
+    w->was |= (uint64_t)vec_bits(vec_gt(f, zero)) << n;
+    w->is |= (uint64_t)vec_bits(is) << n;
+    w->inside |= (uint64_t)vec_bits(vec_ge(to, vec_all(POTENTIAL_ISO))) << n;
+    w->dirtied |= (uint64_t)vec_bits(o.dirtied) << n;
+    w->moved |= (uint64_t)(moves ? vec_bits(vec_ne(to, f)) : 0) << n;
 }
 
-/* Writes what became of the corners from slot di * 64 + n on. */
-KERNEL void settle(action_rows_brick *b, int di, int n, vec_f f, vec_u rgba, outcome o)
+KERNEL void slab_settle(action_rows_brick *b, int di, const slab_words *w)
 {
-    const vec_f zero = vec_all(POTENTIAL_MIN), most = vec_all(POTENTIAL_MAX);
-    vec_f to = vec_pick(vec_gt(o.potential, most), most, o.potential);
-    to = vec_pick(vec_gt(to, zero), to, zero);
-    to = vec_pick(o.dirtied, to, f);
-    vec_m is = vec_gt(to, zero), was = vec_gt(f, zero);
-    vec_store(b->page->potential + di * 64 + n, to);
-    vec_store_u(b->page->rgba + di * 64 + n,
-                vec_pick_u(is, vec_pick_u(o.dirtied, o.rgba, rgba), vec_all_u(COLOUR_NONE)));
-    unsigned now = vec_bits(is), before = vec_bits(was);
-    b->now.stored += (uint32_t)__builtin_popcount(now) - (uint32_t)__builtin_popcount(before);
-    b->fresh.slab[di] |= (uint64_t)(now & ~before) << n;
-    b->now.dirtied.slab[di] |= (uint64_t)vec_bits(o.dirtied) << n;
-    b->now.moved.slab[di] |= (uint64_t)vec_bits(vec_ne(to, f)) << n;
-    bits_put(&b->now.inside.slab[di], n, vec_bits(vec_ge(to, vec_all(POTENTIAL_ISO))));
+    b->now.stored += (uint32_t)__builtin_popcountll(w->is) - (uint32_t)__builtin_popcountll(w->was);
+    b->now.inside.slab[di] = (b->now.inside.slab[di] & ~w->reached) | w->inside;
+    b->now.dirtied.slab[di] = w->dirtied;
+    b->now.moved.slab[di] = w->moved;
+    b->fresh.slab[di] = w->is & ~w->was;
 }
 
 /* The tool's potential on a slab, by the shape's own function. */
@@ -142,17 +155,36 @@ static void slab_evaluate(const action_rows_dab *d, const float at[3], float v_t
     d->form->evaluate(d->form->self, p[0], p[1], p[2], v_tool, 64);
 }
 
+/* May the slab that begins at this point reach into the unit ball? Never false wrongly. */
+KERNEL bool is_near_ball(const walk *w, const float at[3])
+{
+    float squared = 0;
+    for (int a = 0; a < 3; a++) {
+        float middle = at[a] + w->slab_middle[a], gap = (middle < 0 ? -middle : middle) - w->slab_reach[a];
+        squared += gap > 0 ? gap * gap : 0;
+    }
+    return squared <= 1.001f;
+}
+
 KERNEL bool brick_act(const action kind, const bool is_wyvill, const action_rows_dab *d, action_rows_brick *b)
 {
     const constants k = constants_of(d);
     const key first = key_of_brick(b->at);
     float start[3], v_tool[64];
+    float *potential = b->page->potential;
+    uint32_t *rgba_at = b->page->rgba;
+    const float *const x = d->path->plane[0], *const y = d->path->plane[1], *const z = d->path->plane[2];
     uint64_t any = 0;
     walk_start(d->path, b->at, start);
-    for (int di = 0; di < BRICK_EDGE; di++) {
+    for (int di = 0; di < BRICK_EDGE; di++, potential += 64, rgba_at += 64) {
+        slab_words words = {0};
         float at[3];
         for (int a = 0; a < 3; a++)
             at[a] = start[a] + d->path->along[a][di];
+        if (is_wyvill && !is_near_ball(d->path, at)) {
+            slab_settle(b, di, &words);
+            continue;
+        }
         if (!is_wyvill)
             slab_evaluate(d, at, v_tool);
         const uint32_t dither = (uint32_t)(first.i + di) * COLOUR_STEP_I + (uint32_t)first.j * COLOUR_STEP_J +
@@ -161,21 +193,22 @@ KERNEL bool brick_act(const action kind, const bool is_wyvill, const action_rows
             vec_m within;
             vec_f v;
             if (is_wyvill) {
-                v = wyvill(at[0] + vec_load(d->path->plane[0] + n), at[1] + vec_load(d->path->plane[1] + n),
-                           at[2] + vec_load(d->path->plane[2] + n), &within);
+                v = wyvill(at[0] + vec_load(x + n), at[1] + vec_load(y + n), at[2] + vec_load(z + n), &within);
             } else {
                 v = vec_load(v_tool + n);
                 within = vec_gt(v, vec_all(0));
             }
             if (vec_bits(within) == 0)
                 continue;
-            vec_f f = vec_load(b->page->potential + di * 64 + n);
-            vec_u rgba = vec_load_u(b->page->rgba + di * 64 + n);
-            settle(b, di, n, f, rgba,
+            vec_f f = vec_load(potential + n);
+            vec_u rgba = vec_load_u(rgba_at + n);
+            settle(kind, potential + n, rgba_at + n, n, f, rgba,
                    act(kind, d->set, &k, v, f, rgba, dither + vec_load_u(d->dither + n),
-                       b->mean ? b->mean + di * 64 + n : NULL));
+                       kind == ACTION_SMOOTH ? b->mean + di * 64 + n : NULL),
+                   &words);
         }
-        any |= b->now.dirtied.slab[di];
+        slab_settle(b, di, &words);
+        any |= words.dirtied;
     }
     return any != 0;
 }
@@ -201,22 +234,24 @@ bool LANES_NAMED(action_rows)(const action_rows_dab *d, action_rows_brick *b)
 
 /* --- the mean round a corner --- */
 
-KERNEL float one_two_one(float a, float b, float c) { return ((a + c) + (b + b)) * 0.25f; }
+/* Of each number and those one and two strides on: the whole block at once, ends of rows and all, is faster than row by
+   row; what means nothing there is never looked at. */
+KERNEL void one_two_one(const float *restrict from, int stride, int count, float *restrict to)
+{
+    for (int n = 0; n < count; n++) {
+        float b = from[n + stride];
+        to[n] = ((from[n] + from[n + 2 * stride]) + (b + b)) * 0.25f;
+    }
+}
 
 /* Along k, then j, then i, in the order of additions that action.c's definition has. */
 void LANES_NAMED(action_rows_mean)(const float *apron, float mean_out[BRICK_CORNERS])
 {
-    enum { SIDE = ACTION_APRON_SIDE };
-    float along_k[SIDE][SIDE][8], along_j[SIDE][64];
-    for (int row = 0; row < SIDE * SIDE; row++)
-        for (int n = 0; n < 8; n++)
-            along_k[row / SIDE][row % SIDE][n] =
-                one_two_one(apron[row * SIDE + n], apron[row * SIDE + n + 1], apron[row * SIDE + n + 2]);
-    for (int i = 0; i < SIDE; i++)
-        for (int n = 0; n < 64; n++)
-            along_j[i][n] = one_two_one(along_k[i][n >> 3][n & 7], along_k[i][(n >> 3) + 1][n & 7],
-                                        along_k[i][(n >> 3) + 2][n & 7]);
-    for (int i = 0; i < BRICK_EDGE; i++)
-        for (int n = 0; n < 64; n++)
-            mean_out[i * 64 + n] = one_two_one(along_j[i][n], along_j[i + 1][n], along_j[i + 2][n]);
+    enum { SIDE = ACTION_APRON_SIDE, PLANE = SIDE * SIDE, ALL = SIDE * PLANE };
+    float along_k[ALL - 2], along_j[ALL - 2 - 2 * SIDE], along_i[ALL - 2 - 2 * SIDE - 2 * PLANE];
+    one_two_one(apron, 1, ALL - 2, along_k);
+    one_two_one(along_k, SIDE, ALL - 2 - 2 * SIDE, along_j);
+    one_two_one(along_j, PLANE, ALL - 2 - 2 * SIDE - 2 * PLANE, along_i);
+    for (int row = 0; row < BRICK_ROWS; row++)
+        memcpy(mean_out + row * 8, along_i + (row >> 3) * PLANE + (row & 7) * SIDE, 8 * sizeof *mean_out);
 }

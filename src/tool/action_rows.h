@@ -35,7 +35,7 @@ typedef struct action_rows_brick {
     key at;             /* brick key */
     brick_page *page;   /* in: as the brick is; out: as it becomes */
     const float *mean;  /* smooth: L[F] of the 512 corners (action_rows_mean); else NULL */
-    clay_written now;   /* in: inside and stored as the page has them, no bits dirtied or moved; out: what came of it */
+    clay_written now;   /* in: inside and stored as the page has them; out: what came of it */
     brick_mask fresh;   /* out: clay that smooth or stamp made; its colour is left to the caller */
 } action_rows_brick;
 

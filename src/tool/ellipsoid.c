@@ -40,6 +40,6 @@ status ellipsoid_init(ellipsoid *e, ellipsoid_profile profile, double border)
 
 shape ellipsoid_shape(const ellipsoid *e)
 {
-    shape s = {e, evaluate, {-1, -1, -1}, {1, 1, 1}, e->profile == ELLIPSOID_WYVILL};
+    shape s = {e, evaluate, {-1, -1, -1}, {1, 1, 1}, true, e->profile == ELLIPSOID_WYVILL};
     return s;
 }

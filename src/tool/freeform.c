@@ -43,6 +43,6 @@ void freeform_finish(freeform *f)
 
 shape freeform_shape(const freeform *f)
 {
-    shape s = {f, evaluate, {-f->reach[0], -f->reach[1], -f->reach[2]}, {f->reach[0], f->reach[1], f->reach[2]}, false};
+    shape s = {f, evaluate, {-f->reach[0], -f->reach[1], -f->reach[2]}, {f->reach[0], f->reach[1], f->reach[2]}, false, false};
     return s;
 }

@@ -64,12 +64,20 @@ static status gather(const action_setting *set, const walk *w, const clay *c, to
     pool_clear(&scratch->works);
     pool_clear(&scratch->pages);
     key at;
-    for (at.i = w->bricks.min.i; at.i <= w->bricks.max.i; at.i++)
-        for (at.j = w->bricks.min.j; at.j <= w->bricks.max.j; at.j++) {
-            uint32_t id = POOL_NONE;
-            for (at.k = w->bricks.min.k; at.k <= w->bricks.max.k; at.k++) {
-                id = clay_find_beyond(c, id, at);
-                if (!walk_touches(w, at) || (id == POOL_NONE && !all && !action_makes_clay(set->kind)))
+    for (at.i = w->reached.min.i; at.i <= w->reached.max.i; at.i++)
+        for (at.j = w->reached.min.j; at.j <= w->reached.max.j; at.j++) {
+            avl_walk row; /* the stored bricks of a row follow each other in the tree */
+            key next;
+            uint32_t next_id;
+            at.k = w->reached.min.k;
+            bool more = avl_seek(&row, &c->tree, at, &next, &next_id);
+            for (; at.k <= w->reached.max.k; at.k++) {
+                uint32_t id = POOL_NONE;
+                if (more && key_equal(next, at)) {
+                    id = next_id;
+                    more = avl_next(&row, &next, &next_id);
+                }
+                if (!walk_reaches(w, at) || (id == POOL_NONE && !all && !action_makes_clay(set->kind)))
                     continue;
                 status s = work_add(set, c, at, id, scratch);
                 if (s != STATUS_OK)
@@ -104,12 +112,8 @@ static void act(const action_rows_dab *dab, const clay *c, tool_work *work)
     bool near = action_reads_neighbours(dab->set->kind);
     work->rows.page = work->page ? work->page : b->page;
     work->rows.mean = dab->set->kind == ACTION_SMOOTH ? mean : NULL;
-    memset(&work->rows.now, 0, sizeof work->rows.now);
-    memset(&work->rows.fresh, 0, sizeof work->rows.fresh);
-    if (b) {
-        work->rows.now.inside = b->inside;
-        work->rows.now.stored = b->stored;
-    }
+    work->rows.now.inside = b ? b->inside : (brick_mask){{0}};
+    work->rows.now.stored = b ? b->stored : 0;
     if (work->page && b)
         *work->page = *b->page;
     else if (work->page)

@@ -15,6 +15,22 @@ static int32_t key_floor(double x)
     return (int32_t)f;
 }
 
+/* The bricks of the ellipsoid that the frame makes of the unit ball: it reaches less far than its axes' sum. */
+static box ball_bricks(const frame *f)
+{
+    int32_t lo[3], hi[3];
+    for (int c = 0; c < 3; c++) {
+        double squared = 0;
+        for (int a = 0; a < 3; a++)
+            squared += f->axis[a][c] * f->axis[a][c];
+        double extent = sqrt(squared) * (1 + 1e-6); /* tool space knows floats only */
+        lo[c] = key_floor(f->origin[c] - extent);
+        hi[c] = key_floor(f->origin[c] + extent);
+    }
+    const box corners = {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
+    return box_of_bricks(corners);
+}
+
 /* Range of corners per axis from floor(c - e) to floor(c + e), of the box round the oriented box. */
 static status range_set(walk *w, const frame *f)
 {
@@ -33,6 +49,7 @@ static status range_set(walk *w, const frame *f)
     }
     w->corners = (box){{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
     w->visited = box_count(w->corners);
+    w->reached = w->is_ball ? ball_bricks(f) : box_of_bricks(w->corners);
     w->bricks = box_of_bricks(w->corners);
     return box_count(w->bricks) > CAPACITY_DAB_BRICKS ? STATUS_TOO_LARGE : STATUS_OK;
 }
@@ -50,6 +67,13 @@ status walk_begin(walk *w, const frame *f, const shape *s)
             w->along[a][n] = (float)(w->row[a][0] * n);
         for (int n = 0; n < 64; n++)
             w->plane[a][n] = (float)(w->row[a][1] * (n >> 3) + w->row[a][2] * (n & 7));
+    }
+    w->is_ball = s->is_ball;
+    for (int a = 0; a < 3; a++) {
+        const double bound = walk_bound(w, a);
+        w->slab_middle[a] = (float)(3.5 * (w->row[a][1] + w->row[a][2]));
+        w->slab_reach[a] = (float)(3.5 * (fabs(w->row[a][1]) + fabs(w->row[a][2])) + bound);
+        w->brick_reach[a] = 3.5 * (fabs(w->row[a][0]) + fabs(w->row[a][1]) + fabs(w->row[a][2])) + bound;
     }
     return range_set(w, f);
 }
@@ -69,17 +93,37 @@ static void to_tool(const walk *w, double i, double j, double k, double out[3])
         out[a] = w->row[a][0] * d[0] + w->row[a][1] * d[1] + w->row[a][2] * d[2];
 }
 
-bool walk_touches(const walk *w, key brick_at)
+/* Middle of a brick in tool space. */
+static void brick_middle(const walk *w, key brick_at, double middle_out[3])
 {
     key first = key_of_brick(brick_at);
-    double middle[3];
-    to_tool(w, first.i + 3.5, first.j + 3.5, first.k + 3.5, middle);
-    for (int a = 0; a < 3; a++) {
-        double extent = 3.5 * (fabs(w->row[a][0]) + fabs(w->row[a][1]) + fabs(w->row[a][2])) + walk_bound(w, a);
-        if (middle[a] - extent > w->hi[a] || middle[a] + extent < w->lo[a])
+    to_tool(w, first.i + 3.5, first.j + 3.5, first.k + 3.5, middle_out);
+}
+
+static bool is_in_box(const walk *w, const double middle[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (middle[a] - w->brick_reach[a] > w->hi[a] || middle[a] + w->brick_reach[a] < w->lo[a])
             return false;
-    }
     return true;
+}
+
+bool walk_touches(const walk *w, key brick_at)
+{
+    double middle[3];
+    brick_middle(w, brick_at, middle);
+    return is_in_box(w, middle);
+}
+
+bool walk_reaches(const walk *w, key brick_at)
+{
+    double middle[3], squared = 0;
+    brick_middle(w, brick_at, middle);
+    for (int a = 0; a < 3 && w->is_ball; a++) {
+        double gap = fabs(middle[a]) - w->brick_reach[a];
+        squared += gap > 0 ? gap * gap : 0;
+    }
+    return is_in_box(w, middle) && squared <= 1;
 }
 
 void walk_start(const walk *w, key brick_at, float start_out[3])

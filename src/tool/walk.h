@@ -28,9 +28,14 @@ extern "C" {
 typedef struct walk {
     box corners; /* the whole range, clipped to KEY_MIN..KEY_MAX */
     box bricks;
+    box reached; /* bricks that the shape itself can reach: of a ball, fewer than those of the box round it */
     double row[3][3]; /* tool from key */
     double origin[3];
     double lo[3], hi[3];      /* the shape's support, tool space */
+    bool is_ball;             /* and it lies in the unit ball */
+    double brick_reach[3];    /* half the size of a brick's box in tool space, with what roundings may add */
+    float slab_middle[3];     /* of a slab's box in tool space, from its first corner */
+    float slab_reach[3];      /* half the box's size, with what roundings may add */
     float along[3][8];        /* [tool axis][di] displacement */
     float plane[3][64];       /* [tool axis][dj * 8 + dk] displacement */
     double visited;           /* corners in the range */
@@ -44,6 +49,8 @@ STATUS_CHECKED status walk_begin(walk *w, const frame *f, const shape *s);
 double walk_bound(const walk *w, int tool_axis);
 /* Can any corner of this brick lie inside the oriented box? Never false wrongly. */
 bool walk_touches(const walk *w, key brick_at);
+/* The same, and inside the ball where the shape is one: can its potential there be anything but 0? */
+bool walk_reaches(const walk *w, key brick_at);
 /* Tool-space point of the brick's first corner. */
 void walk_start(const walk *w, key brick_at, float start_out[3]);
 /* Tool-space points of the eight corners of row (di, dj): x, y, z. */

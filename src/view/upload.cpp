@@ -3,309 +3,357 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <compare>
-#include <cstddef>
+#include <tuple>
 
 namespace {
 
-constexpr float place_per_step = 4096;
-constexpr size_t unit_vertex_bytes = sizeof(upload_vertex) * UPLOAD_UNIT_VERTICES;
-constexpr size_t unit_triangle_bytes = sizeof(uint16_t) * 3 * UPLOAD_UNIT_TRIANGLES;
-constexpr size_t unit_line_bytes = sizeof(uint16_t) * 2 * UPLOAD_UNIT_LINES;
+/* A frame's spending. */
+struct purse {
+    size_t budget_bytes;
+    size_t spent = 0; /* sent, and kept aside for what page_end will send */
+    size_t sent = 0;  /* of it */
 
-/* --- units of a page --- */
+    /* What cannot be split may go alone: else it would wait for ever. */
+    bool affords(size_t bytes) const { return spent == 0 || (spent < budget_bytes && bytes <= budget_bytes - spent); }
+};
 
-bool is_taken(const upload_page &p, int unit) { return p.taken[static_cast<size_t>(unit / 64)] >> (unit % 64) & 1; }
+enum class outcome { done, unaffordable, refused };
 
-void mark(upload_page *p, int first, int units, bool taken)
+/* --- frames --- */
+
+/* Behind everything drawn since the last update: that may be more than one picture, the last one's fence counts. */
+void put_fence(upload *u)
 {
-    for (int n = first; n < first + units; n++) {
-        const uint64_t bit = uint64_t{1} << (n % 64);
-        uint64_t &word = p->taken[static_cast<size_t>(n / 64)];
-        assert(((word & bit) != 0) != taken);
-        word ^= bit;
+    if (!u->fences.empty() && u->fences.back().frame == u->frame) {
+        glDeleteSync(u->fences.back().sync);
+        u->fences.pop_back();
     }
-    if (taken) {
-        p->top = std::max(p->top, first + units);
+    if (const GLsync sync = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0))
+        u->fences.push_back({u->frame, sync}); /* where there is none, the next one stands for both */
+}
+
+void begin_frame(upload *u)
+{
+    if (u->frame > 0 && (u->fences.empty() || u->fences.back().frame < u->frame))
+        put_fence(u);
+    while (!u->fences.empty()) {
+        const GLenum state = glClientWaitSync(u->fences.front().sync, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+        if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED)
+            break;
+        u->done = u->fences.front().frame;
+        glDeleteSync(u->fences.front().sync);
+        u->fences.pop_front();
+    }
+    u->frame++;
+}
+
+/* The device has done with every frame but the one that now begins. */
+bool is_idle(const upload &u) { return u.done + 1 >= u.frame; }
+
+void take_back(upload *u)
+{
+    while (!u->left.empty() && u->left.front().frame <= u->done) {
+        const upload_range r = u->left.front().range;
+        page_leave(&u->pages[r.page], r.first, r.units);
+        u->left.pop_front();
+    }
+}
+
+/* last_frame: that shows the range. */
+void leave(upload *u, const upload_range &r, uint64_t last_frame)
+{
+    if (r.units == 0)
         return;
-    }
-    p->longest = UPLOAD_UNITS;
-    while (p->top > 0 && !is_taken(*p, p->top - 1))
-        p->top--;
+    page_hide(&u->pages[r.page], r.first);
+    if (last_frame > u->done)
+        u->left.push_back({last_frame, r});
+    else
+        page_leave(&u->pages[r.page], r.first, r.units);
+    u->counts.held--;
 }
 
-/* First run of free units that is long enough, -1 when there is none. */
-int free_run(upload_page *p, int units)
+void close_all(upload *u)
 {
-    if (units > p->longest)
-        return -1;
-    for (int n = 0, run = 0; n < UPLOAD_UNITS; n++) {
-        run = is_taken(*p, n) ? 0 : run + 1;
-        if (run == units)
-            return n + 1 - units;
-    }
-    p->longest = units - 1;
-    return -1;
+    for (page &p : u->pages)
+        page_close(&p);
+    for (const upload_fence &f : u->fences)
+        glDeleteSync(f.sync);
+    upload fresh;
+    fresh.with_lines = u->with_lines;
+    fresh.counts.bytes = u->counts.bytes;
+    fresh.counts.patches = u->counts.patches;
+    *u = std::move(fresh);
 }
 
-/* --- pages --- */
+/* --- ranges --- */
 
-void send(upload *u, GLuint buffer, size_t at, size_t bytes, const void *from)
+bool take_anywhere(upload *u, int units, upload_range *out, std::string *trouble_out)
 {
-    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
-    glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), from);
-    u->counts.bytes += bytes;
+    out->units = units;
+    for (out->page = 0;; out->page++) {
+        if (out->page == UPLOAD_PAGES_MAX) {
+            *trouble_out =
+                "the piece has more surface than can be shown: " + std::to_string(UPLOAD_PAGES_MAX) + " pages";
+            return false;
+        }
+        if (out->page == u->pages.size()) {
+            page fresh;
+            if (!page_open(&fresh, u->with_lines, trouble_out))
+                return false;
+            u->pages.push_back(std::move(fresh));
+        }
+        out->first = berth_take(&u->pages[out->page].units, units);
+        if (out->first != BERTH_NONE)
+            return true;
+    }
 }
 
-GLuint make_buffer(size_t bytes, const void *from)
+bool take(upload *u, const upload_slot &s, int units, upload_range *out, std::string *trouble_out)
 {
-    GLuint name = 0;
-    glGenBuffers(1, &name);
-    glBindBuffer(GL_COPY_WRITE_BUFFER, name);
-    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), from, GL_DYNAMIC_DRAW);
-    return name;
+    if (s.before.units >= units && berth_take_at(&u->pages[s.before.page].units, s.before.first, units)) {
+        *out = {s.before.page, s.before.first, units};
+        return true;
+    }
+    return take_anywhere(u, units, out, trouble_out);
 }
 
-const void *at_byte(size_t byte) { return reinterpret_cast<const void *>(byte); }
-
-GLuint make_array(GLuint vertices, GLuint indices)
+/* That page_end may send for what is shown and hidden there. */
+size_t table_bytes(const upload &u, const upload_range &shown, const upload_range &hidden)
 {
-    GLuint name = 0;
-    glGenVertexArrays(1, &name);
-    glBindVertexArray(name);
-    glBindBuffer(GL_ARRAY_BUFFER, vertices);
-    glEnableVertexAttribArray(0);
-    glVertexAttribIPointer(0, 4, GL_UNSIGNED_SHORT, sizeof(upload_vertex), at_byte(offsetof(upload_vertex, place)));
-    glEnableVertexAttribArray(1);
-    glVertexAttribPointer(1, 2, GL_SHORT, GL_TRUE, sizeof(upload_vertex), at_byte(offsetof(upload_vertex, normal)));
-    glEnableVertexAttribArray(2);
-    glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(upload_vertex),
-                          at_byte(offsetof(upload_vertex, rgba)));
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
-    glBindVertexArray(0);
-    glBindBuffer(GL_ARRAY_BUFFER, 0);
-    return name;
-}
-
-void close_page(upload_page *p)
-{
-    glDeleteVertexArrays(1, &p->array);
-    glDeleteVertexArrays(1, &p->line_array);
-    const GLuint buffers[3] = {p->vertices, p->triangles, p->lines};
-    glDeleteBuffers(3, buffers);
-    glDeleteTextures(1, &p->bricks);
-}
-
-bool open_page(upload *u, std::string *trouble_out)
-{
-    if (u->pages.size() >= UPLOAD_PAGES_MAX) {
-        *trouble_out = "the piece has more surface than can be shown: " + std::to_string(UPLOAD_PAGES_MAX) + " pages";
-        return false;
-    }
-    while (glGetError() != GL_NO_ERROR) {
-    }
-    const std::vector<uint16_t> nothing(UPLOAD_UNITS * size_t{3} * UPLOAD_UNIT_TRIANGLES, 0);
-    upload_page p;
-    p.vertices = make_buffer(UPLOAD_UNITS * unit_vertex_bytes, nullptr);
-    p.triangles = make_buffer(UPLOAD_UNITS * unit_triangle_bytes, nothing.data());
-    p.array = make_array(p.vertices, p.triangles);
-    if (u->with_lines) {
-        static_assert(unit_line_bytes <= unit_triangle_bytes);
-        p.lines = make_buffer(UPLOAD_UNITS * unit_line_bytes, nothing.data());
-        p.line_array = make_array(p.vertices, p.lines);
-    }
-    glGenTextures(1, &p.bricks);
-    glBindTexture(GL_TEXTURE_2D, p.bricks);
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32I, UPLOAD_UNITS, 1);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    if (glGetError() != GL_NO_ERROR) {
-        close_page(&p);
-        *trouble_out = "the device has no memory for more surface";
-        return false;
-    }
-    u->pages.push_back(p);
-    return true;
+    size_t bytes = 0;
+    if (shown.units > 0)
+        bytes += PAGE_TEXEL_BYTES + page_backlog(u.pages[shown.page], u.done);
+    if (hidden.units > 0)
+        bytes += PAGE_TEXEL_BYTES;
+    if (hidden.units > 0 && (shown.units == 0 || shown.page != hidden.page))
+        bytes += page_backlog(u.pages[hidden.page], u.done);
+    return bytes;
 }
 
 /* --- patches --- */
 
-int16_t packed_signed(float x) { return static_cast<int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767.0f)); }
-
-void pack_normal(const float n[3], int16_t out[2])
+outcome lost(upload *u, std::string *trouble_out)
 {
-    const float sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
-    if (!(sum > 0)) {
-        out[0] = out[1] = 0;
-        return;
-    }
-    float x = n[0] / sum, y = n[1] / sum;
-    if (n[2] < 0) {
-        const float folded = (1 - std::abs(y)) * (x >= 0 ? 1.0f : -1.0f);
-        y = (1 - std::abs(x)) * (y >= 0 ? 1.0f : -1.0f);
-        x = folded;
-    }
-    out[0] = packed_signed(x);
-    out[1] = packed_signed(y);
+    close_all(u);
+    *trouble_out = "the device took back the memory of the surface";
+    return outcome::refused;
 }
 
-void pack_vertices(upload *u, const patch &p, int unit)
+outcome drop(upload *u, const upload_range &shown, purse *money)
 {
-    u->packed.resize(p.vertex_count);
-    for (uint32_t n = 0; n < p.vertex_count; n++) {
-        const patch_vertex &from = p.vertices[n];
-        upload_vertex &to = u->packed[n];
-        for (int c = 0; c < 3; c++)
-            to.place[c] = static_cast<uint16_t>(
-                std::lround(std::clamp(from.position[c], 0.0f, float{BRICK_EDGE}) * place_per_step));
-        to.unit = static_cast<uint16_t>(unit);
-        pack_normal(from.normal, to.normal);
-        to.rgba = from.rgba;
-    }
+    const size_t bytes = table_bytes(*u, {}, shown);
+    if (!money->affords(bytes))
+        return outcome::unaffordable;
+    money->spent += bytes;
+    page_begin(&u->pages[shown.page], u->done);
+    leave(u, shown, u->frame - 1);
+    return outcome::done;
 }
 
-void pack_triangles(upload *u, const patch &p, int units, size_t base)
+/* The patch is packed for the range, and sent. */
+outcome write(upload *u, const upload_slot &s, const patch &p, const upload_range &r, purse *money)
 {
-    u->indices.assign(static_cast<size_t>(units) * 3 * UPLOAD_UNIT_TRIANGLES, static_cast<uint16_t>(base));
-    for (size_t t = 0; t < p.triangle_count; t++)
-        for (size_t c = 0; c < 3; c++)
-            u->indices[3 * t + c] = static_cast<uint16_t>(base + p.triangles[t][c]);
+    const bool stays = r.page == s.shown.page && r.first == s.shown.first && s.shown.units > 0;
+    packed_make(&u->scratch, p, r.first, r.units, u->with_lines);
+    page_plan(u->pages[r.page], u->scratch, r.first, r.units, &u->change);
+    const size_t bytes =
+        u->change.bytes + (stays && key_equal(s.at, p.at) ? 0 : table_bytes(*u, r, stays ? upload_range{} : s.shown));
+    if (!money->affords(bytes))
+        return outcome::unaffordable;
+    if (!page_write(&u->pages[r.page], u->scratch, r.first, r.units, u->change))
+        return outcome::refused;
+    money->spent += bytes;
+    money->sent += u->change.bytes;
+    return outcome::done;
 }
 
-/* Where a vertex lies on the whole lattice: the same number in every patch that has it, so that of a side's two
-   directions all patches choose the same one to draw. */
-struct edge_name {
-    int64_t i, j, k;
-    int axis;
-    auto operator<=>(const edge_name &) const = default;
-};
-
-edge_name name_of(const patch &p, uint16_t vertex)
+void show(upload *u, upload_slot *s, const patch &p, const upload_range &r)
 {
-    const uint32_t edge = p.vertices[vertex].edge;
-    const int64_t corner = edge / 3;
-    return {p.at.i * int64_t{BRICK_EDGE} + corner / (PATCH_SIDE * PATCH_SIDE),
-            p.at.j * int64_t{BRICK_EDGE} + corner / PATCH_SIDE % PATCH_SIDE,
-            p.at.k * int64_t{BRICK_EDGE} + corner % PATCH_SIDE, static_cast<int>(edge % 3)};
-}
-
-/* A closed surface has each side once in either direction; the rising one is drawn. */
-void pack_lines(upload *u, const patch &p, int units, size_t base)
-{
-    u->indices.clear();
-    for (size_t t = 0; t < p.triangle_count; t++) {
-        for (size_t c = 0; c < 3; c++) {
-            const uint16_t from = p.triangles[t][c], to = p.triangles[t][(c + 1) % 3];
-            if (name_of(p, from) < name_of(p, to)) {
-                u->indices.push_back(static_cast<uint16_t>(base + from));
-                u->indices.push_back(static_cast<uint16_t>(base + to));
-            }
+    const bool is_new = s->shown.units == 0;
+    const bool stays = !is_new && r.page == s->shown.page && r.first == s->shown.first;
+    if (!stays || !key_equal(s->at, p.at)) {
+        page_begin(&u->pages[r.page], u->done);
+        if (!stays && !is_new) {
+            page_begin(&u->pages[s->shown.page], u->done);
+            page_hide(&u->pages[s->shown.page], s->shown.first);
         }
+        page_show(&u->pages[r.page], r.first, p.at);
     }
-    assert(u->indices.size() <= static_cast<size_t>(units) * 2 * UPLOAD_UNIT_LINES);
-    u->indices.resize(static_cast<size_t>(units) * 2 * UPLOAD_UNIT_LINES, static_cast<uint16_t>(base));
-}
-
-/* Rising sides, as pack_lines counts them: between one and two a triangle. */
-size_t line_count(const patch &p)
-{
-    size_t count = 0;
-    for (size_t t = 0; t < p.triangle_count; t++)
-        for (size_t c = 0; c < 3; c++)
-            count += name_of(p, p.triangles[t][c]) < name_of(p, p.triangles[t][(c + 1) % 3]);
-    return count;
-}
-
-size_t parts(size_t n, size_t each) { return (n + each - 1) / each; }
-
-int units_for(const upload &u, const patch &p)
-{
-    size_t units =
-        std::max(parts(p.vertex_count, UPLOAD_UNIT_VERTICES), parts(p.triangle_count, UPLOAD_UNIT_TRIANGLES));
-    if (u.with_lines)
-        units = std::max(units, parts(line_count(p), UPLOAD_UNIT_LINES));
-    return static_cast<int>(units);
-}
-
-void drop(upload *u, upload_slot *s)
-{
-    if (s->units == 0)
-        return;
-    upload_page &page = u->pages[s->page];
-    const size_t first = static_cast<size_t>(s->first);
-    u->indices.assign(static_cast<size_t>(s->units) * 3 * UPLOAD_UNIT_TRIANGLES, 0);
-    send(u, page.triangles, first * unit_triangle_bytes, static_cast<size_t>(s->units) * unit_triangle_bytes,
-         u->indices.data());
-    if (u->with_lines)
-        send(u, page.lines, first * unit_line_bytes, static_cast<size_t>(s->units) * unit_line_bytes,
-             u->indices.data());
-    mark(&page, s->first, s->units, false);
-    *s = upload_slot{};
-    u->counts.held--;
-}
-
-bool place(upload *u, upload_slot *s, int units, std::string *trouble_out)
-{
-    for (uint32_t page = 0;; page++) {
-        if (page == u->pages.size() && !open_page(u, trouble_out))
-            return false;
-        const int first = free_run(&u->pages[page], units);
-        if (first < 0)
-            continue;
-        mark(&u->pages[page], first, units, true);
-        s->page = page;
-        s->first = first;
-        s->units = units;
-        u->counts.held++;
-        return true;
-    }
-}
-
-bool put(upload *u, upload_slot *s, const patch &p, std::string *trouble_out)
-{
-    const int units = units_for(*u, p);
-    assert(units <= UPLOAD_UNITS);
-    bool moved = !key_equal(s->at, p.at);
-    if (units > s->units || units * 2 < s->units) {
-        drop(u, s);
-        if (!place(u, s, units, trouble_out))
-            return false;
-        moved = true;
-    }
-    const upload_page &page = u->pages[s->page];
-    const size_t first = static_cast<size_t>(s->first), base = first * UPLOAD_UNIT_VERTICES;
-    pack_vertices(u, p, s->first);
-    send(u, page.vertices, first * unit_vertex_bytes, u->packed.size() * sizeof(upload_vertex), u->packed.data());
-    pack_triangles(u, p, s->units, base);
-    send(u, page.triangles, first * unit_triangle_bytes, u->indices.size() * sizeof(uint16_t), u->indices.data());
-    if (u->with_lines) {
-        pack_lines(u, p, s->units, base);
-        send(u, page.lines, first * unit_line_bytes, u->indices.size() * sizeof(uint16_t), u->indices.data());
-    }
-    if (moved) {
-        const GLint texel[4] = {p.at.i, p.at.j, p.at.k, 0};
-        glBindTexture(GL_TEXTURE_2D, page.bricks);
-        glTexSubImage2D(GL_TEXTURE_2D, 0, s->first, 0, 1, 1, GL_RGBA_INTEGER, GL_INT, texel);
-        u->counts.bytes += sizeof texel;
-    }
+    u->counts.held += is_new;
+    u->counts.patches++;
+    s->shown = r;
     s->at = p.at;
     s->generation = p.generation;
-    u->counts.patches++;
-    return true;
+    s->waiting = 0;
 }
 
-void draw(const upload &u, GLenum kind, GLuint upload_page::*array, size_t indices_each)
+/* An idle device shows nothing that could be spoilt: the patch stays where it is while it fits, else its range is free
+   for the patch itself. */
+outcome put_idle(upload *u, upload_slot *s, const patch &p, int units, purse *money, std::string *trouble_out)
 {
-    glActiveTexture(GL_TEXTURE0);
-    for (const upload_page &p : u.pages) {
-        if (p.top == 0)
-            continue;
-        glBindTexture(GL_TEXTURE_2D, p.bricks);
-        glBindVertexArray(p.*array);
-        glDrawElements(kind, static_cast<GLsizei>(static_cast<size_t>(p.top) * indices_each), GL_UNSIGNED_SHORT,
-                       nullptr);
+    const upload_range old = s->shown;
+    const bool stays = units <= old.units && 2 * units >= old.units;
+    upload_range r = old;
+    if (!stays && old.units > 0)
+        page_leave(&u->pages[old.page], old.first, old.units);
+    outcome state = outcome::refused;
+    const bool taken = stays || take_anywhere(u, units, &r, trouble_out);
+    if (taken)
+        state = write(u, *s, p, r, money);
+    if (state == outcome::done) {
+        show(u, s, p, r);
+        s->before = upload_range{};
+        return state;
     }
+    if (taken && state == outcome::refused)
+        return lost(u, trouble_out);
+    if (taken && !stays)
+        berth_give(&u->pages[r.page].units, r.first, r.units);
+    if (!stays && old.units > 0)
+        page_return(&u->pages[old.page], old.first, old.units);
+    return state;
+}
+
+outcome put_aside(upload *u, upload_slot *s, const patch &p, int units, purse *money, std::string *trouble_out)
+{
+    upload_range r;
+    if (!take(u, *s, units, &r, trouble_out))
+        return outcome::refused;
+    const outcome state = write(u, *s, p, r, money);
+    if (state == outcome::refused)
+        return lost(u, trouble_out);
+    if (state == outcome::unaffordable) {
+        berth_give(&u->pages[r.page].units, r.first, r.units);
+        return state;
+    }
+    const upload_range old = s->shown;
+    show(u, s, p, r);
+    if (old.units > 0) {
+        u->left.push_back({u->frame - 1, old});
+        s->before = old;
+    }
+    return state;
+}
+
+const patch *patch_of(const surface *s, uint32_t slot)
+{
+    const patch *p = slot < surface_slots(s) ? surface_patch(s, slot) : nullptr;
+    return p && p->triangle_count > 0 ? p : nullptr;
+}
+
+bool by_brick(const upload_gone &a, const upload_gone &b) { return key_compare(a.at, b.at) < 0; }
+
+/* A brick's patch may have got another slot: then what is shown of the brick goes with it, so that it is never shown
+   twice. What is shown of bricks without a patch is gone. */
+void follow_bricks(upload *u, const surface *s)
+{
+    for (uint32_t n = 0; n < u->slots.size(); n++) {
+        upload_slot &slot = u->slots[n];
+        const patch *p = patch_of(s, n);
+        if (slot.shown.units > 0 && !(p && key_equal(slot.at, p->at))) {
+            u->gone.push_back({slot.at, slot.generation, slot.shown});
+            slot = upload_slot{};
+        }
+    }
+    std::sort(u->gone.begin(), u->gone.end(), by_brick);
+    for (uint32_t n = 0; n < u->slots.size() && !u->gone.empty(); n++) {
+        const patch *p = u->slots[n].shown.units == 0 ? patch_of(s, n) : nullptr;
+        if (!p)
+            continue;
+        const auto at = std::lower_bound(u->gone.begin(), u->gone.end(), upload_gone{p->at, 0, {}}, by_brick);
+        if (at != u->gone.end() && key_equal(at->at, p->at)) {
+            u->slots[n].at = at->at;
+            u->slots[n].generation = at->generation;
+            u->slots[n].shown = at->shown;
+            u->gone.erase(at);
+        }
+    }
+}
+
+/* Slots whose patch is another than what is shown, in the order they go. */
+std::vector<uint32_t> list_changed(upload *u, const surface *s, bool in_turn)
+{
+    using turn = std::tuple<int, uint64_t, uint32_t>;
+    std::vector<turn> turns;
+    for (uint32_t n = 0; n < u->slots.size(); n++) {
+        const patch *p = patch_of(s, n);
+        upload_slot &slot = u->slots[n];
+        if (p ? slot.shown.units > 0 && slot.generation == p->generation : slot.shown.units == 0) {
+            slot.waiting = 0;
+            continue;
+        }
+        if (slot.waiting == 0)
+            slot.waiting = u->frame;
+        if (!in_turn)
+            turns.emplace_back(0, 0, n);
+        else if (slot.waiting + UPLOAD_WAIT_FRAMES <= u->frame)
+            turns.emplace_back(1, slot.waiting, n);
+        else
+            turns.emplace_back(2, ~p->generation, n);
+    }
+    std::sort(turns.begin(), turns.end());
+    std::vector<uint32_t> list;
+    for (const turn &t : turns)
+        list.push_back(std::get<2>(t));
+    return list;
+}
+
+outcome put(upload *u, upload_slot *s, const patch &p, purse *money, std::string *trouble_out)
+{
+    const int units = packed_units(p, u->with_lines);
+    assert(units <= PACKED_UNITS_MAX);
+    return (is_idle(*u) ? put_idle : put_aside)(u, s, p, units, money, trouble_out);
+}
+
+outcome drop_gone(upload *u, purse *money)
+{
+    while (!u->gone.empty()) {
+        if (drop(u, u->gone.back().shown, money) != outcome::done)
+            return outcome::unaffordable;
+        u->gone.pop_back();
+    }
+    return outcome::done;
+}
+
+/* What is left of the list waits. */
+outcome send_changed(upload *u, const surface *s, purse *money, std::string *trouble_out)
+{
+    const bool in_turn = money->budget_bytes != UPLOAD_ALL;
+    if (in_turn || !u->gone.empty())
+        follow_bricks(u, s);
+    const std::vector<uint32_t> list = list_changed(u, s, in_turn);
+    outcome state = drop_gone(u, money);
+    size_t n = 0;
+    while (state == outcome::done && n < list.size()) {
+        upload_slot &slot = u->slots[list[n]];
+        if (const patch *p = patch_of(s, list[n])) {
+            state = put(u, &slot, *p, money, trouble_out);
+        } else {
+            assert(!in_turn); /* there follow_bricks took it away */
+            state = drop(u, slot.shown, money);
+            slot = upload_slot{};
+        }
+        n += state == outcome::done;
+    }
+    u->counts.waiting = static_cast<uint32_t>(list.size() - n + u->gone.size());
+    return state;
+}
+
+box bricks_shown(const upload &u)
+{
+    box b = box_empty();
+    for (const upload_slot &slot : u.slots)
+        if (slot.shown.units > 0)
+            b = box_include(b, slot.at);
+    for (const upload_gone &g : u.gone)
+        b = box_include(b, g.at);
+    return b;
+}
+
+void draw(const upload &u, GLenum kind)
+{
+    for (const page &p : u.pages)
+        page_draw(p, kind);
     glBindVertexArray(0);
 }
 
@@ -319,48 +367,55 @@ void upload_init(upload *u, bool with_lines)
 
 void upload_finish(upload *u)
 {
-    for (upload_page &p : u->pages)
-        close_page(&p);
+    close_all(u);
     *u = upload{};
 }
 
 void upload_clear(upload *u)
 {
-    for (upload_slot &s : u->slots)
-        drop(u, &s);
+    for (const upload_slot &s : u->slots)
+        leave(u, s.shown, u->frame);
+    for (const upload_gone &g : u->gone)
+        leave(u, g.shown, u->frame);
+    for (page &p : u->pages)
+        page_blank(&p);
     u->slots.clear();
+    u->gone.clear();
     u->newest = 0;
+    u->counts.waiting = 0;
     u->bricks = box_empty();
 }
 
-bool upload_update(upload *u, const surface *s, std::string *trouble_out)
+bool upload_update(upload *u, const surface *s, size_t budget_bytes, std::string *trouble_out)
 {
+    begin_frame(u);
+    take_back(u);
     /* A surface's generations only grow: a smaller one is another surface, whose numbers mean nothing here. */
     if (s->generation < u->newest)
         upload_clear(u);
-    u->newest = s->generation;
-    if (u->slots.size() < surface_slots(s))
-        u->slots.resize(surface_slots(s));
-    box bricks = box_empty();
-    for (uint32_t n = 0; n < u->slots.size(); n++) {
-        const patch *p = n < surface_slots(s) ? surface_patch(s, n) : nullptr;
-        upload_slot &slot = u->slots[n];
-        if (!p || p->triangle_count == 0) {
-            drop(u, &slot);
-            continue;
-        }
-        bricks = box_include(bricks, p->at);
-        if ((slot.units == 0 || slot.generation != p->generation) && !put(u, &slot, *p, trouble_out))
-            return false;
+    purse money{budget_bytes};
+    bool good = true;
+    /* A patch that is given back moves no generation on, but takes its triangles with it. */
+    if (s->generation != u->newest || s->triangles != u->triangles || u->counts.waiting > 0) {
+        u->newest = s->generation;
+        u->triangles = s->triangles;
+        if (u->slots.size() < surface_slots(s))
+            u->slots.resize(surface_slots(s));
+        good = send_changed(u, s, &money, trouble_out) != outcome::refused;
+        u->bricks = bricks_shown(*u);
     }
-    u->bricks = bricks;
-    return true;
+    for (page &p : u->pages)
+        money.sent += page_end(&p, u->frame);
+    u->counts.bytes += money.sent;
+    return good;
 }
 
-void upload_draw_triangles(const upload &u) { draw(u, GL_TRIANGLES, &upload_page::array, 3 * UPLOAD_UNIT_TRIANGLES); }
+void upload_drawn(upload *u) { put_fence(u); }
+
+void upload_draw_triangles(const upload &u) { draw(u, GL_TRIANGLES); }
 
 void upload_draw_lines(const upload &u)
 {
     if (u.with_lines)
-        draw(u, GL_LINES, &upload_page::line_array, 2 * UPLOAD_UNIT_LINES);
+        draw(u, GL_LINES);
 }

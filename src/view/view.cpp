@@ -31,6 +31,7 @@ struct view {
     canvas picture;
     upload clay;
     upload tool; /* of snapshot.tool_surface */
+    size_t budget_bytes = VIEW_ALL;
     const surface *tool_surface = nullptr;
     marker markers;
     GLuint studio = 0;
@@ -261,9 +262,11 @@ void view_close(view *v)
     delete v;
 }
 
-bool view_update(view *v, const sculpture *s, std::string *trouble_out)
+bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t budget_bytes)
 {
-    return upload_update(&v->clay, &s->surface, trouble_out);
+    static_assert(VIEW_ALL == UPLOAD_ALL && VIEW_FRAME_BYTES >= UPLOAD_BUDGET_LEAST_BYTES);
+    v->budget_bytes = budget_bytes;
+    return upload_update(&v->clay, &s->surface, budget_bytes, trouble_out);
 }
 
 void view_forget(view *v) { upload_clear(&v->clay); }
@@ -277,7 +280,7 @@ bool view_draw(view *v, const snapshot &s, int width, int height, std::string *t
     if (s.tool_surface != v->tool_surface)
         upload_clear(&v->tool);
     v->tool_surface = s.tool_surface;
-    if (s.tool_surface && !upload_update(&v->tool, s.tool_surface, trouble_out))
+    if (s.tool_surface && !upload_update(&v->tool, s.tool_surface, v->budget_bytes, trouble_out))
         return false;
     const projection p = project(*v, s, width, height);
     canvas_begin(&v->picture);
@@ -288,6 +291,8 @@ bool view_draw(view *v, const snapshot &s, int width, int height, std::string *t
     marker_draw_tool(v->markers, s, p, s.tool_surface ? &v->tool : nullptr, height);
     glUseProgram(0);
     canvas_end(&v->picture);
+    upload_drawn(&v->clay);
+    upload_drawn(&v->tool);
     return true;
 }
 
@@ -300,5 +305,6 @@ uint32_t view_texture(const view *v) { return v->picture.texture; }
 
 view_counts view_count(const view *v)
 {
-    return {v->clay.counts.bytes, v->clay.counts.patches, v->clay.counts.held, v->picture.samples};
+    return {v->clay.counts.bytes, v->clay.counts.patches, v->clay.counts.held,
+            v->clay.counts.waiting + v->tool.counts.waiting, v->picture.samples};
 }

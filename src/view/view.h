@@ -5,7 +5,7 @@
  * Is not:  What is to be seen (station/snapshot.h); a screen or window (platform/display); a picture file
  *          (exchange/picture.h).
  * Shape:
- *              view_update   changed patches -> device            upload.h
+ *              view_update   changed patches -> device            upload.h, page.h
  *              view_draw     backdrop, clay, box, lights, tool    canvas.h, clay_shader.h, marker.h
  *              view_pixels   the finished picture as bytes
  *
@@ -25,16 +25,25 @@
 #include "sculpture/sculpture.h"
 #include "station/snapshot.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 struct view;
 
+constexpr size_t VIEW_ALL = std::numeric_limits<size_t>::max(); /* budget of a picture: nothing waits */
+/* Budget of a frame at 60 Hz: 170 patches of 160 vertices, as a stroke of a large tool changes them. Packing and
+   writing it is to take about a millisecond of the processor, 60 MiB a second are 0.4 % of what a Raspberry Pi 5's
+   memory moves. */
+constexpr size_t VIEW_FRAME_BYTES = size_t{1} << 20;
+
 struct view_counts {
     uint64_t uploaded_bytes;   /* of patches, since view_open; the tool's own not counted */
     uint64_t uploaded_patches; /* likewise */
     uint32_t patches;          /* on the device now */
+    uint32_t waiting;          /* patches, the tool's too, that are not drawn as they are: over the budget */
     int samples;               /* per pixel in the last picture; 0 before the first */
 };
 
@@ -42,8 +51,9 @@ struct view_counts {
 [[nodiscard]] view *view_open(std::string *trouble_out);
 void view_close(view *v); /* NULL is fine */
 
-/* Brings what is shown up to date with the sculpture's surface. */
-[[nodiscard]] bool view_update(view *v, const sculpture *s, std::string *trouble_out);
+/* Brings what is shown up to date with the sculpture's surface. budget_bytes: what may be sent now; the rest waits for
+   the next update, see upload.h. It also holds, for the tool's own surface, in each view_draw until then. */
+[[nodiscard]] bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t budget_bytes = VIEW_ALL);
 /* Forgets every patch: before another sculpture is shown by the same view. */
 void view_forget(view *v);
 

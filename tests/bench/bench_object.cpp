@@ -133,7 +133,7 @@ std::vector<bench_object_dab> bench_object_character()
     return dabs;
 }
 
-std::vector<bench_object_dab> bench_object_million()
+std::vector<bench_object_dab> bench_object_million(double times)
 {
     seeded random{1};
     std::vector<bench_object_dab> dabs;
@@ -144,8 +144,8 @@ std::vector<bench_object_dab> bench_object_million()
         const uint32_t rgba = colour_pack(static_cast<unsigned>(random.next(60, 255)),
                                           static_cast<unsigned>(random.next(60, 255)), 120, 255);
         for (int a = 0; a < 3; a++) {
-            centre[a] = towards[a] * depth;
-            semi[a] = random.next(14, 24);
+            centre[a] = times * towards[a] * depth;
+            semi[a] = times * random.next(14, 24);
             turn[a] = random.next(-pi, pi);
         }
         dabs.push_back(dab_of(centre, semi, turn, ACTION_TOOTHPASTE, 1.5, rgba));

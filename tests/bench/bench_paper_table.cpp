@@ -151,12 +151,10 @@ struct stages {
 
 stages ours_staged(bench_rig &rig, const bench_object_dab &d)
 {
-    tool_counts t;
-    surface_counts s;
     const double start = now_s();
-    rig.field(d, &t);
+    rig.field(d, nullptr);
     const double middle = now_s();
-    rig.surface_of_field(&s);
+    rig.surface_of_field(nullptr);
     return {middle - start, now_s() - middle};
 }
 
@@ -185,7 +183,7 @@ row_result row_measure(character &c, const std::vector<bench_object_dab> &dabs)
     for (int n = 0; n < rounds; n++) {
         stages sum;
         size_t count = 0;
-        r.ours_s.push_back(mean_seconds(dabs, ours_round_s, [&](const bench_object_dab &d) { rig.ours(d); }));
+        r.ours_s.push_back(mean_seconds(dabs, ours_round_s, [&](const bench_object_dab &d) { rig.apply(d); }));
         mean_seconds(dabs, ours_round_s, [&](const bench_object_dab &d) {
             const stages one = ours_staged(rig, d);
             sum.field_s += one.field_s;
@@ -333,7 +331,7 @@ void register_rows(bench_rig &rig)
         benchmark::RegisterBenchmark(("ours/" + name).c_str(), [&rig, dabs](benchmark::State &state) {
             size_t n = 0;
             for (auto _ : state)
-                rig.ours(dabs[n++ % dabs.size()]);
+                rig.apply(dabs[n++ % dabs.size()]);
             state.SetItemsProcessed(static_cast<int64_t>(state.iterations()));
         });
         benchmark::RegisterBenchmark(("trees/" + name).c_str(), [&rig, dabs](benchmark::State &state) {

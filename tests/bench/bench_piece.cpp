@@ -41,9 +41,8 @@ void bench_piece::stroke(const bench_object_dab &d)
 {
     const tool t = {ellipsoid_shape(&ball), d.kind, d.rgba, {}};
     const sculpture_dab dab = {d.dab.at, d.dab.amount, 1.0};
-    sculpture_counts counts;
     sculpture_stroke_begin(whole.get());
-    bench_rig_demand(sculpture_apply(whole.get(), &t, &dab, &counts) == STATUS_OK, "sculpture_apply");
+    bench_rig_demand(sculpture_apply(whole.get(), &t, &dab, nullptr) == STATUS_OK, "sculpture_apply");
     bench_rig_demand(sculpture_stroke_end(whole.get()) == STATUS_OK, "sculpture_stroke_end");
 }
 

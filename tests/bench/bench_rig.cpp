@@ -64,7 +64,37 @@ bench_rig::~bench_rig()
     clay_finish(&field_clay);
 }
 
-tool bench_rig::tool_of(const bench_object_dab &d) const { return {ellipsoid_shape(&ball), d.kind, d.rgba, {}}; }
+tool bench_rig::tool_of(const bench_object_dab &d) const
+{
+    return {ellipsoid_shape(&ball), d.kind, d.rgba, deform_default()};
+}
+
+double bench_rig::clay_bytes() const
+{
+    return static_cast<double>(pool_bytes(&field_clay.bricks) + pool_bytes(&field_clay.pages) +
+                               pool_bytes(&field_clay.tree.nodes));
+}
+
+double bench_rig::surface_bytes() const
+{
+    double bytes = static_cast<double>(pool_bytes(&skin.patches) + pool_bytes(&skin.tree.nodes));
+    for (uint32_t slot = 0; slot < surface_slots(&skin); slot++)
+        if (const patch *p = surface_patch(&skin, slot))
+            bytes += static_cast<double>(p->vertex_room * sizeof *p->vertices +
+                                         p->triangle_room * sizeof *p->triangles);
+    return bytes;
+}
+
+std::vector<lanes> bench_rig::choices()
+{
+    std::vector<lanes> here;
+    for (const lanes l : {LANES_AVX2, LANES_AVX512, LANES_PLAIN})
+        if (lanes_are_here(l))
+            here.push_back(l);
+    return here;
+}
+
+void bench_rig::use_rows(lanes choice) { field_clay.rows = choice; }
 
 void bench_rig::field(const bench_object_dab &d, tool_counts *counts_out)
 {
@@ -80,6 +110,12 @@ void bench_rig::surface_of_field(surface_counts *counts_out)
     dirt_clear(&field_clay.dirty);
 }
 
+void bench_rig::apply(const bench_object_dab &d)
+{
+    field(d, nullptr);
+    surface_of_field(nullptr);
+}
+
 bench_rig_counts bench_rig::ours(const bench_object_dab &d)
 {
     bench_rig_counts counts;
@@ -87,6 +123,7 @@ bench_rig_counts bench_rig::ours(const bench_object_dab &d)
     field(d, &counts.tool);
     surface_of_field(&s);
     counts.treated = s.treated;
+    counts.skin = s;
     return counts;
 }
 

@@ -15,9 +15,11 @@
 #include "tool/ellipsoid.h"
 
 #include <string>
+#include <vector>
 
 struct bench_rig_counts {
     tool_counts tool;
+    surface_counts skin; /* ours only */
     uint64_t treated; /* cubes; the reference leaves out those that never had a corner */
 };
 
@@ -31,6 +33,8 @@ public:
     /* The two halves of our dab. */
     void field(const bench_object_dab &d, tool_counts *counts_out);
     void surface_of_field(surface_counts *counts_out);
+    /* Both, not counted: what is timed. */
+    void apply(const bench_object_dab &d);
     bench_rig_counts ours(const bench_object_dab &d);
     bench_rig_counts reference(const bench_object_dab &d);
     /* The reference starts anew with our field. */
@@ -40,6 +44,15 @@ public:
        way lets normals beside a dab age: ask only after load_reference. */
     std::string difference(bool normals) const;
     uint64_t vertices() const; /* each cut edge once, over all patches */
+    uint64_t number() const { return dabs_ours; } /* of our next dab */
+    /* Memory held for the field, for the surface: pools, trees, arrays with their spare room. */
+    double clay_bytes() const;
+    double surface_bytes() const;
+
+    /* The vector instructions our row kernels can be told to use on this machine, widest first; one for as long as the
+       compiler alone decides. */
+    static std::vector<lanes> choices(); /* of vectors, those that are here: AVX2 first if it is */
+    void use_rows(lanes choice);
 
     clay field_clay = {};
     surface skin = {};

@@ -143,7 +143,11 @@ static status deposit(per_corner *p, key at, float d, uint32_t rgba, uint64_t da
         if (s != STATUS_OK)
             return s;
     }
-    float f = c->potential, sum = f + d;
+    float f = c->potential, room = POTENTIAL_MAX - f;
+    d = d < room ? d : room;
+    float sum = f + d;
+    if (!(d > 0))
+        return corner_modified(p, c);
     c->rgba = f > POTENTIAL_MIN ? colour_mix(c->rgba, rgba, d / sum, colour_dither(at, dab)) : rgba;
     c->potential = sum > POTENTIAL_MAX ? POTENTIAL_MAX : sum;
     return corner_modified(p, c);
@@ -173,7 +177,7 @@ static void step_to(const walk *w, key at, float row[3], float point_out[3])
 
 status per_corner_apply(per_corner *p, action kind, uint32_t rgba, const tool_dab *d, tool_counts *counts_out)
 {
-    const shape unit_ball = {NULL, NULL, {-1, -1, -1}, {1, 1, 1}, true};
+    const shape unit_ball = {NULL, NULL, {-1, -1, -1}, {1, 1, 1}, true, true};
     assert(kind == ACTION_TOOTHPASTE || kind == ACTION_SOFT_ERASER);
     memset(counts_out, 0, sizeof *counts_out);
     float amount = (float)d->amount, row[3] = {0, 0, 0}, x[3];

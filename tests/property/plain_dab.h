@@ -195,7 +195,8 @@ inline plain_dab_corner plain_dab_act(const tool &t, double amount, const plain_
                                       double dv)
 {
     const plain_clay_corner old = plain_clay_read(before, at);
-    const double f = old.potential, d = amount * v / 3, dd = amount * dv / 3 + 1e-6 * d, part = std::min(amount, 1.0);
+    const double room = t.kind == ACTION_TOOTHPASTE ? 3 - static_cast<double>(old.potential) : 1e9;
+    const double f = old.potential, d = std::min(amount * v / 3, room), dd = amount * dv / 3 + 1e-6 * d, part = std::min(amount, 1.0);
     plain_dab_corner out = {f, {}, 1e-6, 1e-3, false};
     plain_dab_exact_colour(out, old.rgba);
     const double mix = f > 0 ? d / (f + d) : 1, mix_slack = f > 0 ? dd / (f + std::max(0.0, d - dd)) + 1e-6 : 0;

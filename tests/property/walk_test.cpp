@@ -78,7 +78,7 @@ frame random_frame(seeded &chance, const kind &k)
 
 shape random_shape(seeded &chance)
 {
-    shape s = {nullptr, nothing, {-1, -1, -1}, {1, 1, 1}, false};
+    shape s = {nullptr, nothing, {-1, -1, -1}, {1, 1, 1}, false, false};
     if (seeded_chance(chance, 0.4))
         for (int a = 0; a < 3; a++) {
             s.lo[a] = seeded_real(chance, -2, 0.5);
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(frames, walk_property, testing::ValuesIn(kinds),
 TEST(walk_needle, of_huge_axis_does_not_drift)
 {
     const frame f = {{0.3, -0.2, 0.1}, {{3, 0.001, 0}, {0, 2.5, 0.0007}, {1, 2, 6e4}}};
-    const shape s = {nullptr, nothing, {-1, -1, -1}, {1, 1, 1}, false};
+    const shape s = {nullptr, nothing, {-1, -1, -1}, {1, 1, 1}, false, false};
     walk w;
     ASSERT_EQ(walk_begin(&w, &f, &s), STATUS_OK);
     tally t = {0, 0, 0};

@@ -156,7 +156,7 @@ TEST(action_toothpaste, adds_and_mixes_by_contribution)
         const float amount = static_cast<float>(seeded_real(chance, 0.01, 5));
         s.act(ACTION_TOOTHPASTE, amount, 0xA0B0C0D0u);
         for (int n = 0; n < 8; n++) {
-            const float f = before.potential[n], d = amount / 3 * s.v_tool[n];
+            const float f = before.potential[n], d = std::min(amount / 3 * s.v_tool[n], 3 - f);
             ASSERT_EQ(s.potential[n], f + d);
             const float t = colour_dither(key_add(s.first, 0, 0, n), 3);
             ASSERT_EQ(s.rgba[n], f > 0 ? colour_mix(before.rgba[n], 0xA0B0C0D0u, d / (f + d), t) : 0xA0B0C0D0u);

@@ -2,13 +2,12 @@
 /* Goal: only patches whose generation changed are sent; what is gone is no longer drawn; after any sequence of changes
  *       the device holds what a fresh upload would.
  * Method: bytes sent are counted while balls of clay are added, touched and removed; pictures of a view that saw every
- *         step are compared with those of a view that saw only the end. */
+ *         step are compared with those of a view that saw only the end. Patches made by hand fill pages; what the
+ *         device would draw of them is read back. Frames, budgets and fences: upload_frames_test.cpp. */
+#include "upload_device.h"
 #include "view_stage.h"
 
-#include "view/upload.h"
-
 #include <algorithm>
-#include <cstring>
 #include <random>
 
 namespace {
@@ -136,97 +135,62 @@ TEST_F(view_upload, a_surface_whose_generations_fell_back_is_another)
     EXPECT_EQ(draw(s).apart(draw_fresh(s, second)), 0);
 }
 
-/* A surface of patches made by hand: each one triangle in its own brick, `vertices` long. */
-struct hand_made {
-    surface it;
-    std::vector<std::vector<patch_vertex>> vertices;
-    uint16_t triangle[1][3] = {{0, 1, 2}};
-
-    hand_made(uint32_t count, uint32_t vertices_each) : vertices(count, std::vector<patch_vertex>(vertices_each))
-    {
-        std::memset(&it, 0, sizeof it);
-        EXPECT_EQ(pool_init(&it.patches, sizeof(patch), count), STATUS_OK);
-        for (uint32_t n = 0; n < count; n++) {
-            uint32_t slot = 0;
-            EXPECT_EQ(pool_take(&it.patches, &slot), STATUS_OK);
-            EXPECT_EQ(slot, n);
-            std::memset(pool_at(&it.patches, slot), 0, sizeof(patch));
-            resize(n, vertices_each);
-            at(n)->at = {static_cast<int32_t>(n), 0, 0};
-            at(n)->triangles = triangle;
-            at(n)->triangle_count = 1;
-        }
-    }
-    ~hand_made() { pool_finish(&it.patches); }
-    hand_made(const hand_made &) = delete;
-    hand_made &operator=(const hand_made &) = delete;
-
-    patch *at(uint32_t n) { return static_cast<patch *>(pool_at(&it.patches, n)); }
-    void resize(uint32_t n, uint32_t count)
-    {
-        vertices[n].assign(count, patch_vertex{});
-        at(n)->vertices = vertices[n].data();
-        at(n)->vertex_count = count;
-        at(n)->generation = ++it.generation;
-    }
-};
-
 TEST_F(view_upload, a_full_page_is_followed_by_another)
 {
-    const uint32_t count = UPLOAD_UNITS / 2 + 10;
-    hand_made s(count, UPLOAD_UNIT_VERTICES * 2); /* two units each */
+    const uint32_t count = BERTH_UNITS / 2 + 10;
+    upload_device_surface s(count, PACKED_UNIT_VERTICES * 2); /* two units each */
     upload u;
     upload_init(&u, false);
-    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+    ASSERT_TRUE(upload_update(&u, &s.it, UPLOAD_ALL, &trouble)) << trouble;
     EXPECT_EQ(u.pages.size(), 2u);
-    EXPECT_EQ(u.pages[0].top, UPLOAD_UNITS);
-    EXPECT_EQ(u.pages[1].top, 20);
+    EXPECT_EQ(u.pages[0].units.top, BERTH_UNITS);
+    EXPECT_EQ(u.pages[1].units.top, 20);
     EXPECT_EQ(u.counts.held, count);
-    std::vector<int> owner(2 * UPLOAD_UNITS, 0);
-    for (const upload_slot &slot : u.slots)
-        for (int n = 0; n < slot.units; n++)
-            owner[slot.page * UPLOAD_UNITS + static_cast<size_t>(slot.first + n)]++;
-    for (int n : owner)
-        EXPECT_LE(n, 1) << "no unit has two patches";
+    EXPECT_EQ(upload_device_draw(upload_device_calls(u)), upload_device_expected(s.it));
+    EXPECT_EQ(upload_device_calls(u).size(), 2u) << "a call a page";
 
     /* room that comes free in a page that was full is found again */
     for (uint32_t n = 0; n < 10; n++)
-        s.at(n)->triangle_count = 0;
-    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+        s.remove(n);
+    ASSERT_TRUE(upload_update(&u, &s.it, UPLOAD_ALL, &trouble)) << trouble;
     EXPECT_EQ(u.counts.held, count - 10);
+    EXPECT_EQ(upload_device_draw(upload_device_calls(u)), upload_device_expected(s.it));
     for (uint32_t n = 0; n < 10; n++)
-        s.at(n)->triangle_count = 1;
-    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+        s.change(n, PACKED_UNIT_VERTICES * 2);
+    ASSERT_TRUE(upload_update(&u, &s.it, UPLOAD_ALL, &trouble)) << trouble;
     for (uint32_t n = 0; n < 10; n++) {
-        EXPECT_EQ(u.slots[n].page, 0u);
-        EXPECT_LT(u.slots[n].first, 20);
+        EXPECT_EQ(u.slots[n].shown.page, 0u);
+        EXPECT_LT(u.slots[n].shown.first, 20);
     }
-    EXPECT_EQ(u.pages[1].top, 20);
+    EXPECT_EQ(u.pages[1].units.top, 20);
+    EXPECT_EQ(upload_device_draw(upload_device_calls(u)), upload_device_expected(s.it));
     upload_finish(&u);
 }
 
 TEST_F(view_upload, freed_units_are_used_again)
 {
     const uint32_t count = 300;
-    hand_made s(count, 3);
+    upload_device_surface s(count, 3);
     upload u;
     upload_init(&u, true);
     std::mt19937 random(11);
     for (int round = 0; round < 60; round++) {
         for (uint32_t n = 0; n < count; n++)
             if (random() % 4 == 0)
-                s.resize(n, 3 + random() % 158); /* one to five units: 900 of 2,048 at the mean */
-        ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+                s.change(n, 3 + random() % 158); /* one to five units: 900 of 2,048 at the mean */
+        ASSERT_TRUE(upload_update(&u, &s.it, UPLOAD_ALL, &trouble)) << trouble;
         ASSERT_EQ(u.counts.held, count);
-        for (uint32_t n = 0; n < count; n++)
-            ASSERT_GE(static_cast<uint32_t>(u.slots[n].units) * UPLOAD_UNIT_VERTICES, s.at(n)->vertex_count);
+        ASSERT_EQ(upload_device_draw(upload_device_calls(u)), upload_device_expected(s.it)) << round;
     }
     EXPECT_EQ(u.pages.size(), 1u);
     for (uint32_t n = 0; n < count; n++)
-        s.at(n)->triangle_count = 0;
-    ASSERT_TRUE(upload_update(&u, &s.it, &trouble)) << trouble;
+        s.remove(n);
+    ASSERT_TRUE(upload_update(&u, &s.it, UPLOAD_ALL, &trouble)) << trouble;
     EXPECT_EQ(u.counts.held, 0u);
-    EXPECT_EQ(u.pages[0].top, 0);
+    ASSERT_TRUE(upload_update(&u, &s.it, UPLOAD_ALL, &trouble)) << trouble;
+    EXPECT_EQ(u.pages[0].units.count, 0);
+    EXPECT_EQ(u.pages[0].units.top, 0);
+    EXPECT_TRUE(upload_device_calls(u).empty());
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     upload_finish(&u);
 }
@@ -249,11 +213,11 @@ TEST_F(view_upload, a_freeforms_sides_are_each_drawn_once)
         turn_vertices_round(static_cast<patch *>(pool_at(&piece.it->surface.patches, n)));
     upload u;
     upload_init(&u, true);
-    ASSERT_TRUE(upload_update(&u, &piece.it->surface, &trouble)) << trouble;
+    ASSERT_TRUE(upload_update(&u, &piece.it->surface, UPLOAD_ALL, &trouble)) << trouble;
     size_t lines = 0;
-    for (const upload_page &page : u.pages) {
-        const size_t bytes = static_cast<size_t>(page.top) * UPLOAD_UNIT_LINES * 2 * sizeof(uint16_t);
-        glBindBuffer(GL_COPY_READ_BUFFER, page.lines);
+    for (const page &p : u.pages) {
+        const size_t bytes = static_cast<size_t>(p.drawn) * PACKED_LINE_BYTES;
+        glBindBuffer(GL_COPY_READ_BUFFER, p.buffers[2]);
         const auto *index = static_cast<const uint16_t *>(
             glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
         ASSERT_NE(index, nullptr);

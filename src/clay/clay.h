@@ -24,6 +24,7 @@
 #include "clay/dirt.h"
 #include "clay/potential.h"
 #include "lattice/box.h"
+#include "lattice/crew.h"
 #include "lattice/lanes.h"
 
 #ifdef __cplusplus
@@ -36,6 +37,7 @@ typedef struct clay {
     pool pages;
     uint64_t corners; /* stored corners, over all bricks */
     uint64_t births;  /* bricks made so far */
+    const struct crew *crew; /* works on this clay by brick; NULL: the caller alone */
     lanes rows;       /* the vectors that row kernels use on this clay: the best there are, or what a test wants */
     change changes; /* bricks as they were before the stroke under way */
     dirt dirty;     /* corners dirtied since the surface was last brought up to date */

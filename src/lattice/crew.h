@@ -4,8 +4,8 @@
  *          work on clay see this; who asks for threads and has them is station's.
  * Is not:  Threads (station/crew_of_threads.h); a queue: each brick is always the same hand's, so that it stays in that
  *          hand's cache, and the outcome never depends on how many hands there are.
- * Shape:   run calls job(on, hand, hands) once for each hand 0..hands-1, at the same time where it can, and returns when
- *          all have returned. A job does those bricks for which crew_hand_of answers its hand.
+ * Shape:   run calls job(on, hand, hands) once for each hand 0..hands-1, at the same time where it can, and returns
+ *          when all have returned. A job does those bricks for which crew_hand_of answers its hand.
  * Owner:   whoever made `self`.
  * Errors:  None.
  */

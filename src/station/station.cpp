@@ -75,10 +75,10 @@ void dab_apply(station *s, const stroke_dab &d)
     report.time_us = s->next_us;
     report.stroke = s->strokes;
     int64_t start = clock_ns(s);
-    report.outcome = sculpture_apply_field(s->piece, &t, &dab, &report.counts.tool);
+    report.outcome = sculpture_apply_field(s->piece, &t, &dab, s->ears.counts ? &report.counts.tool : nullptr);
     int64_t between = clock_ns(s);
     if (report.outcome == STATUS_OK)
-        report.outcome = sculpture_apply_surface(s->piece, &report.counts.surface);
+        report.outcome = sculpture_apply_surface(s->piece, s->ears.counts ? &report.counts.surface : nullptr);
     report.field_ns = between - start;
     report.surface_ns = clock_ns(s) - between;
     if (report.outcome != STATUS_OK && !s->refusal_told) {

@@ -45,6 +45,7 @@ struct station_dab {
 };
 
 struct station_ears {
+    bool counts = false;                           /* count dabs as the paper does: takes longer than the dabs */
     std::function<int64_t()> clock_ns;             /* for the two times above; none: they stay 0 */
     std::function<void(const station_dab &)> dab;  /* after every dab */
     std::function<void(status, int64_t history_ns)> stroke; /* after every stroke, undo, redo and clear */

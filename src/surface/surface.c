@@ -243,10 +243,12 @@ static void brick_renew(surface *s, const clay *c, aged_brick *e, polygonizer *p
     patch *of = patch_at(s, e->slot);
     polygonizer_look(p, c, e->at, e->brick_id);
     for (int n = 0; n < 8; n++) {
-        const aged_brick *a = NULL;
-        if (e->brick_id != POOL_NONE && p->above[n])
-            a = aged_of(&s->aged, clay_brick(c, e->brick_id)->neighbour[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)]);
-        above[n] = e->brick_id == POOL_NONE || !p->above[n] ? &every_corner : a ? &a->corners : NULL;
+        above[n] = &every_corner;
+        if (e->brick_id == POOL_NONE || !p->above[n])
+            continue;
+        const uint32_t *neighbour = clay_brick(c, e->brick_id)->neighbour;
+        const aged_brick *a = aged_of(&s->aged, neighbour[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)]);
+        above[n] = a ? &a->corners : NULL;
     }
     bool is_other;
     polygonizer_outcome made = polygonizer_remake(p, &s->cases, &e->crossing, above,
@@ -299,10 +301,54 @@ static status patches_open(surface *s, const clay *c)
     return r;
 }
 
+typedef struct update_share {
+    surface *s;
+    const clay *c;
+} update_share;
+
+static void examine_job(void *on, uint32_t hand, uint32_t hands)
+{
+    const update_share *share = (const update_share *)on;
+    polygonizer p;
+    for (uint32_t n = 0; n < aged_count(&share->s->aged); n++) {
+        aged_brick *e = aged_at(&share->s->aged, n);
+        if (crew_hand_of(e->at, hands) == hand)
+            brick_examine(share->s, share->c, e, &p);
+    }
+}
+
+static void renew_job(void *on, uint32_t hand, uint32_t hands)
+{
+    const update_share *share = (const update_share *)on;
+    polygonizer p;
+    for (uint32_t n = 0; n < aged_count(&share->s->aged); n++) {
+        aged_brick *e = aged_at(&share->s->aged, n);
+        if ((e->outcome == DO_OPEN || e->outcome == DO_RENEW) && e->slot != POOL_NONE &&
+            crew_hand_of(e->at, hands) == hand)
+            brick_renew(share->s, share->c, e, &p);
+    }
+}
+
+static status patches_settle(surface *s, surface_counts *counts)
+{
+    status r = STATUS_OK;
+    for (uint32_t n = 0; n < aged_count(&s->aged); n++) {
+        aged_brick *e = aged_at(&s->aged, n);
+        if (e->outcome < DID_NOTHING)
+            continue;
+        totals_settle(s, e, counts);
+        if (e->outcome == DID_FAIL) {
+            r = STATUS_NO_MEMORY;
+            if (patch_at(s, e->slot)->generation == 0)
+                close_one(s, e);
+        }
+    }
+    return r;
+}
+
 status surface_update(surface *s, const clay *c, surface_counts *counts_out)
 {
     surface_counts counts = {0, 0, 0};
-    polygonizer p;
     status r = links_grow(s, c);
     if (r == STATUS_OK)
         r = aged_mark(&s->aged, c, s->orphans > 0);
@@ -310,24 +356,14 @@ status surface_update(surface *s, const clay *c, surface_counts *counts_out)
         r = examined_count(&s->examined, &c->dirty, &counts.treated);
     if (r != STATUS_OK)
         return r;
-    for (uint32_t n = 0; n < aged_count(&s->aged); n++)
-        brick_examine(s, c, aged_at(&s->aged, n), &p);
+    update_share share = {s, c};
+    crew_run(c->crew, aged_count(&s->aged), examine_job, &share);
     r = patches_open(s, c);
-    for (uint32_t n = 0; n < aged_count(&s->aged); n++) {
-        aged_brick *e = aged_at(&s->aged, n);
-        if (e->slot == POOL_NONE || (e->outcome != DO_OPEN && e->outcome != DO_RENEW))
-            continue;
-        brick_renew(s, c, e, &p);
-        totals_settle(s, e, &counts);
-        if (e->outcome == DID_FAIL) {
-            r = STATUS_NO_MEMORY;
-            if (patch_at(s, e->slot)->generation == 0)
-                close_one(s, e);
-        }
-    }
+    crew_run(c->crew, aged_count(&s->aged), renew_job, &share);
+    status settled = patches_settle(s, &counts);
     if (counts_out)
         *counts_out = counts;
-    return r;
+    return r == STATUS_OK ? settled : r;
 }
 
 /* --- from nothing --- */

@@ -43,6 +43,10 @@ void freeform_finish(freeform *f)
 
 shape freeform_shape(const freeform *f)
 {
-    shape s = {f, evaluate, {-f->reach[0], -f->reach[1], -f->reach[2]}, {f->reach[0], f->reach[1], f->reach[2]}, false, false};
+    shape s = {.self = f, .evaluate = evaluate};
+    for (int a = 0; a < 3; a++) {
+        s.lo[a] = -f->reach[a];
+        s.hi[a] = f->reach[a];
+    }
     return s;
 }

@@ -129,12 +129,28 @@ static void act(const action_rows_dab *dab, const clay *c, tool_work *work)
         colour_fresh(dab->set, c, ids, apron, &work->rows);
 }
 
-/* Acts on the bricks in scratch, or on those where they lie. */
+/* The bricks in scratch, or those where they lie. */
+typedef struct act_share {
+    const action_rows_dab *dab;
+    const clay *c;
+    const tool_scratch *scratch;
+    bool in_scratch;
+} act_share;
+
+static void act_job(void *on, uint32_t hand, uint32_t hands)
+{
+    const act_share *share = (const act_share *)on;
+    for (uint32_t n = 0; n < share->scratch->works.count; n++) {
+        tool_work *work = work_at(share->scratch, n);
+        if ((work->page != NULL) == share->in_scratch && crew_hand_of(work->rows.at, hands) == hand)
+            act(share->dab, share->c, work);
+    }
+}
+
 static void act_all(const action_rows_dab *dab, const clay *c, const tool_scratch *scratch, bool in_scratch)
 {
-    for (uint32_t n = 0; n < scratch->works.count; n++)
-        if ((work_at(scratch, n)->page != NULL) == in_scratch)
-            act(dab, c, work_at(scratch, n));
+    act_share share = {dab, c, scratch, in_scratch};
+    crew_run(c->crew, scratch->works.count, act_job, &share);
 }
 
 /* A new brick is made only for clay. Without it, what the tool passed is at most marked. */

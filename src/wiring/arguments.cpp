@@ -3,6 +3,7 @@
 
 #include "exchange/exchange.h"
 #include "station/command.h"
+#include "station/station.h"
 
 #include <CLI/CLI.hpp>
 
@@ -51,6 +52,15 @@ bool task_is_known(const CLI::App &app, const std::string &word)
     return word.starts_with("-");
 }
 
+std::vector<std::string> vectors_here()
+{
+    std::vector<std::string> names = {"best"};
+    for (const lanes l : {LANES_PLAIN, LANES_AVX2, LANES_AVX512})
+        if (lanes_are_here(l))
+            names.emplace_back(lanes_name(l));
+    return names;
+}
+
 void replay_options(CLI::App *app, arguments *a)
 {
     app->add_option("TAPE", a->input, "the tape to replay")->required();
@@ -69,6 +79,10 @@ void replay_options(CLI::App *app, arguments *a)
     app->add_option("--width", a->width, "width of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
     app->add_option("--height", a->height, "height of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
     app->add_option("--ring", a->ring, "undo-files kept in the store")->check(CLI::Range(1, +HISTORY_RING_MAX));
+    app->add_option("--vectors", a->vectors, "instructions to compute with; the outcome is the same with all")
+        ->check(CLI::IsMember(vectors_here()));
+    app->add_option("--hands", a->hands, "threads that work on the clay; 0: as the machine has them")
+        ->check(CLI::Range(0, ARGUMENTS_HANDS_MAX));
 }
 
 } // namespace

@@ -14,6 +14,8 @@
 constexpr int ARGUMENTS_EXIT_TROUBLE = 1; /* the world failed: disk, device, a refused stroke */
 constexpr int ARGUMENTS_EXIT_WRONG = 2;   /* what was given is wrong: words, files, settings */
 
+constexpr int ARGUMENTS_HANDS_MAX = 16;
+
 enum arguments_task { ARGUMENTS_RUN, ARGUMENTS_REPLAY, ARGUMENTS_EXPORT, ARGUMENTS_INFO };
 
 struct arguments {
@@ -29,6 +31,8 @@ struct arguments {
     double step_mm = 0;               /* 0: the tape's own */
     int width = 1280, height = 960;   /* of pictures */
     int ring = 200;                   /* undo-files kept */
+    std::string vectors = "best";     /* of lanes_name, or "best": what the row kernels use */
+    int hands = 0;                    /* threads that work on the clay; 0: as many as the machine has, up to four */
 };
 
 /* On nothing, *exit_out is what the program ends with (0 after --help and --version). */

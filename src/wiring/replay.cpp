@@ -2,6 +2,7 @@
 #include "wiring/replay.h"
 
 #include "exchange/exchange.h"
+#include "station/crew_of_threads.h"
 #include "wiring/playlist.h"
 #include "wiring/progress.h"
 #include "wiring/scratch_store.h"
@@ -14,9 +15,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 namespace {
 
+constexpr unsigned HANDS_USUAL_MAX = 4; /* more share too little of a dab's clay each */
 constexpr int64_t FRAME_US = 16667; /* the replay looks up as often as a 60 Hz screen would */
 
 int64_t clock_ns()
@@ -56,6 +59,7 @@ struct performance {
     bool open = false;
     store *folder = nullptr;
     scratch_store scratch; /* where no folder is wanted */
+    crew_of_threads *crew = nullptr;
     station *desk = nullptr;
     stage *scene = nullptr;
     bool scene_tried = false;
@@ -68,6 +72,18 @@ void trouble(performance *p, const std::string &text)
 {
     std::fprintf(stderr, "\nglaise: %s\n", text.c_str());
     p->exit = ARGUMENTS_EXIT_TROUBLE;
+}
+
+/* The vectors and threads that were asked for. Without threads the caller works alone. */
+void work_as_wanted(performance *p)
+{
+    clay *c = &p->piece->clay;
+    for (const lanes l : {LANES_PLAIN, LANES_AVX2, LANES_AVX512})
+        if (p->wanted->vectors == lanes_name(l))
+            c->rows = l;
+    const unsigned here = std::clamp(std::thread::hardware_concurrency(), 1u, HANDS_USUAL_MAX);
+    p->crew = crew_of_threads_open(p->wanted->hands > 0 ? static_cast<uint32_t>(p->wanted->hands) : here);
+    c->crew = p->crew ? crew_of_threads_port(p->crew) : nullptr;
 }
 
 bool performance_open(performance *p, double step_mm)
@@ -91,9 +107,11 @@ bool performance_open(performance *p, double step_mm)
         return false;
     }
     p->open = true;
+    work_as_wanted(p);
     p->counts.every_dab = !a.statistics.empty();
     station_ears ears;
     ears.clock_ns = clock_ns;
+    ears.counts = p->counts.every_dab;
     ears.dab = [p](const station_dab &d) {
         statistics_dab(&p->counts, d, p->piece.get());
         if (d.outcome != STATUS_OK)
@@ -214,6 +232,7 @@ void performance_close(performance *p)
         if (s != STATUS_OK)
             trouble(p, p->wanted->store + ": " + status_text(s));
     }
+    crew_of_threads_close(p->crew);
     store_close(p->folder);
 }
 

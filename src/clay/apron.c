@@ -3,20 +3,33 @@
 
 #include <string.h>
 
-/* One row of the apron: corner -1, the eight of the middle brick, then one or two of the next. Potentials and colours
-   are words of the same size. */
-static inline void row_gather(const char *const page[3], size_t at, int hi, char *out)
+enum { WORD = 4, ROW = 8 * WORD };
+
+/* Where the words of a page begin that is not stored: nothing is read beyond a row, since its stride is 0. */
+static const char empty_row[ROW];
+
+/* The rows from..to an axis that lie in one column of three bricks. Potentials and colours are words of the same
+   size. */
+static void block_gather(const char *const page[3], apron_rows rows, int hi, char *out)
 {
-    enum { WORD = 4, ROW = 8 * WORD };
-    static const char empty[ROW];
-    const char *a = page[0] ? page[0] + at : empty, *b = page[1] ? page[1] + at : empty,
-               *d = page[2] ? page[2] + at : empty;
-    memcpy(out, a + 7 * WORD, WORD);
-    memcpy(out + WORD, b, ROW);
-    memcpy(out + WORD + ROW, d, WORD);
-    if (hi == APRON_HI_MAX)
-        memcpy(out + 2 * WORD + ROW, d + WORD, WORD);
+    const size_t side = (size_t)(hi - APRON_LO + 1);
+    const char *a = page[0] ? page[0] : empty_row, *b = page[1] ? page[1] : empty_row;
+    const char *d = page[2] ? page[2] : empty_row;
+    const size_t a_step = page[0] ? ROW : 0, b_step = page[1] ? ROW : 0, d_step = page[2] ? ROW : 0;
+    for (int di = rows.from_i; di <= rows.to_i; di++)
+        for (int dj = rows.from_j; dj <= rows.to_j; dj++) {
+            const size_t row = (size_t)((di & 7) << 3 | (dj & 7));
+            char *to = out + ((size_t)(di - APRON_LO) * side + (size_t)(dj - APRON_LO)) * side * WORD;
+            memcpy(to, a + row * a_step + 7 * WORD, WORD);
+            memcpy(to + WORD, b + row * b_step, ROW);
+            memcpy(to + WORD + ROW, d + row * d_step, WORD);
+            if (hi == APRON_HI_MAX)
+                memcpy(to + 2 * WORD + ROW, d + row * d_step + WORD, WORD);
+        }
 }
+
+static int8_t least(int a, int b) { return (int8_t)(a < b ? a : b); }
+static int8_t most(int a, int b) { return (int8_t)(a > b ? a : b); }
 
 /* offset: of the words in a page. */
 static void words_gather(const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS], int hi, apron_rows rows,
@@ -25,13 +38,13 @@ static void words_gather(const clay *c, const uint32_t neighbours[BRICK_NEIGHBOU
     const char *page[BRICK_NEIGHBOURS];
     for (int n = 0; n < BRICK_NEIGHBOURS; n++)
         page[n] = neighbours[n] == POOL_NONE ? NULL : (const char *)clay_brick(c, neighbours[n])->page + offset;
-    const size_t side = (size_t)(hi - APRON_LO + 1);
-    for (int di = rows.from_i; di <= rows.to_i; di++)
-        for (int dj = rows.from_j; dj <= rows.to_j; dj++)
-            /* >> 3 of -1, 0..7, 8..9 is -1, 0, 1: which neighbour the row lies in. */
-            row_gather(&page[brick_neighbour_index(di >> 3, dj >> 3, -1)],
-                       (size_t)((di & 7) << 6 | (dj & 7) << 3) * 4, hi,
-                       out + ((size_t)(di - APRON_LO) * side + (size_t)(dj - APRON_LO)) * side * 4);
+    /* Corner -1 lies in the brick below, 0..7 in the middle one, 8 and 9 in the one above. */
+    for (int i = -1; i <= 1; i++)
+        for (int j = -1; j <= 1; j++) {
+            const apron_rows part = {most(rows.from_i, 8 * i), least(rows.to_i, 8 * i + 7), most(rows.from_j, 8 * j),
+                                     least(rows.to_j, 8 * j + 7)};
+            block_gather(&page[brick_neighbour_index(i, j, -1)], part, hi, out);
+        }
 }
 
 void apron_gather_rows(const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS], int hi, apron_rows rows,

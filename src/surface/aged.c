@@ -57,7 +57,7 @@ static status entry_make(aged *a, key at, uint32_t brick_id, uint32_t *n_out)
     aged_brick *e = aged_at(a, *n_out);
     e->at = at;
     e->brick_id = brick_id;
-    e->is_known = false;
+    e->is_wanted = false;
     return STATUS_OK;
 }
 
@@ -81,7 +81,6 @@ static status absent_add(aged *a, key at)
     if (r != STATUS_OK)
         return r;
     memset(&aged_at(a, n)->corners, 0xff, sizeof(brick_mask));
-    aged_at(a, n)->is_known = true;
     return avl_insert(&a->absent, at, n);
 }
 
@@ -192,13 +191,17 @@ static void corners_age(aged_brick *e, const clay *c, bool gone)
     }
 }
 
-void aged_corners(aged *a, const clay *c, uint32_t brick_id)
+void aged_want(aged *a, uint32_t brick_id)
 {
     const aged_link *link = &a->link[brick_id];
-    if (link->round != a->round || aged_at(a, link->entry)->is_known)
-        return;
-    corners_age(aged_at(a, link->entry), c, a->gone);
-    aged_at(a, link->entry)->is_known = true;
+    if (link->round == a->round)
+        aged_at(a, link->entry)->is_wanted = true;
+}
+
+void aged_corners(aged *a, const clay *c, uint32_t n)
+{
+    if (aged_at(a, n)->is_wanted)
+        corners_age(aged_at(a, n), c, a->gone);
 }
 
 status aged_mark(aged *a, const clay *c, bool orphans)

@@ -25,8 +25,8 @@ extern "C" {
 typedef struct aged_brick {
     key at;         /* brick key */
     uint32_t brick_id; /* POOL_NONE: not stored */
-    brick_mask corners; /* where is_known */
-    bool is_known;
+    brick_mask corners; /* of those wanted, once aged_corners was there */
+    bool is_wanted;
     /* For the surface's own use while it works the entries off. */
     brick_mask crossing;
     uint32_t slot;
@@ -54,8 +54,10 @@ STATUS_CHECKED status aged_mark(aged *a, const clay *c, bool orphans);
 
 static inline uint32_t aged_count(const aged *a) { return a->entries.count; }
 static inline aged_brick *aged_at(const aged *a, uint32_t n) { return (aged_brick *)pool_at(&a->entries, n); }
-/* Finds out the aged corners of a stored brick, if it is listed. */
-void aged_corners(aged *a, const clay *c, uint32_t brick_id);
+/* The aged corners of a stored brick will be asked for, if it is listed. */
+void aged_want(aged *a, uint32_t brick_id);
+/* Finds out the aged corners of entry n, if it is wanted. Writes that entry only: several hands may share them out. */
+void aged_corners(aged *a, const clay *c, uint32_t n);
 /* Entry of a stored brick, NULL when it has none. */
 static inline const aged_brick *aged_of(const aged *a, uint32_t brick_id)
 {

@@ -44,6 +44,7 @@ typedef struct patch {
     patch_vertex *vertices;
     uint16_t (*triangles)[3]; /* indices into vertices, counter-clockwise seen from outside */
     brick_mask crossing;      /* cubes that cross the surface: the paper's crossList, by brick */
+    uint32_t crossing_count;
     uint16_t inside[PATCH_SIDE][PATCH_SIDE]; /* [di][dj], bit dk: corners 0..8 at or over iso */
     uint16_t first[PATCH_SIDE]; /* vertex whose edge's smaller corner has this di, or a greater one */
     bool is_orphan; /* its brick is not stored: only those above are */

@@ -176,6 +176,21 @@ static void orders_carry_out(polygonizer *p)
 
 /* --- cut edges --- */
 
+/* For each di the rows dj that may have cut edges: those of crossing cubes. */
+static void rows_cut(const brick_mask *crossing, uint16_t rows_out[PATCH_SIDE])
+{
+    unsigned below = 0;
+    for (int di = 0; di < PATCH_SIDE; di++) {
+        unsigned here = 0;
+        if (di < BRICK_EDGE)
+            for (uint64_t left = crossing->slab[di], dj = 0; left; left >>= 8, dj++)
+                here |= (unsigned)((left & 0xff) != 0) << dj;
+        here |= here << 1;
+        rows_out[di] = (uint16_t)(here | below);
+        below = here;
+    }
+}
+
 /* A row's cut edges, bit dk * 3 + axis. */
 static inline __attribute__((always_inline)) unsigned edges_cut(const polygonizer_bits *in, int di, int dj)
 {
@@ -205,13 +220,16 @@ static inline __attribute__((always_inline)) void order_add(polygonizer *p, int 
 }
 
 /* All vertices in their order: those of aged edges are ordered, the others taken from the old patch. */
-static void vertices_renew(polygonizer *p, const polygonizer_bits *aged, const patch *old)
+static void vertices_renew(polygonizer *p, const brick_mask *crossing, const polygonizer_bits *aged, const patch *old)
 {
     const patch_vertex *from = old ? old->vertices : NULL;
+    uint16_t rows[PATCH_SIDE];
+    rows_cut(crossing, rows);
     uint32_t count = 0;
     for (int di = 0; di < PATCH_SIDE; di++) {
         p->first[di] = (uint16_t)count;
-        for (int dj = 0; dj < PATCH_SIDE; dj++) {
+        for (unsigned todo = rows[di]; todo; todo &= todo - 1) {
+            const int dj = __builtin_ctz(todo);
             unsigned left = edges_cut(&p->inside, di, dj), made = aged ? edges_aged(aged, di, dj) : ~0u;
             const int row = (di * PATCH_SIDE + dj) * ROW_EDGES;
             for (; left; left &= left - 1, count++) {
@@ -324,7 +342,7 @@ polygonizer_outcome LANES_NAMED(polygonizer_run)(polygonizer *p, const case_tabl
     if (is_same)
         vertices_refresh(p, &aged_bits, old);
     else
-        vertices_renew(p, aged ? &aged_bits : NULL, old);
+        vertices_renew(p, crossing, aged ? &aged_bits : NULL, old);
     if (is_same && p->order_count == 0)
         return POLYGONIZER_SAME;
     if (p->order_count > 0) {

@@ -86,7 +86,7 @@ static void totals_move(surface *s, const patch *p, int sign)
     uint64_t by = (uint64_t)(int64_t)sign;
     s->vertices += by * p->vertex_count;
     s->triangles += by * p->triangle_count;
-    s->crossing += by * brick_mask_count(&p->crossing);
+    s->crossing += by * p->crossing_count;
 }
 
 static void patch_close(surface *s, uint32_t slot)
@@ -155,6 +155,7 @@ static status patch_fill(patch *p, const polygonizer *made, polygonizer_outcome 
         memcpy(p->inside, made->inside.row, sizeof p->inside);
         memcpy(p->first, made->first, sizeof p->first);
         p->crossing = *crossing;
+        p->crossing_count = brick_mask_count(crossing);
     }
     p->digest_known &= !*is_other;
     return r;
@@ -272,12 +273,12 @@ static void totals_settle(surface *s, const aged_brick *e, surface_counts *count
 }
 
 /* The corners of a patch lie in its brick and the seven above. */
-static void above_age(surface *s, const clay *c, const aged_brick *e)
+static void above_want(surface *s, const clay *c, const aged_brick *e)
 {
     for (int n = 0; n < 8 && e->brick_id != POOL_NONE; n++) {
         uint32_t id = clay_brick(c, e->brick_id)->neighbour[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)];
         if (id != POOL_NONE)
-            aged_corners(&s->aged, c, id);
+            aged_want(&s->aged, id);
     }
 }
 
@@ -295,7 +296,7 @@ static status patches_open(surface *s, const clay *c)
         if (e->outcome == DO_RENEW) {
             totals_move(s, patch_at(s, e->slot), -1);
             slot_set(s, e->brick_id, e->slot);
-            above_age(s, c, e);
+            above_want(s, c, e);
         }
     }
     return r;
@@ -315,6 +316,14 @@ static void examine_job(void *on, uint32_t hand, uint32_t hands)
         if (crew_hand_of(e->at, hands) == hand)
             brick_examine(share->s, share->c, e, &p);
     }
+}
+
+static void age_job(void *on, uint32_t hand, uint32_t hands)
+{
+    const update_share *share = (const update_share *)on;
+    for (uint32_t n = 0; n < aged_count(&share->s->aged); n++)
+        if (crew_hand_of(aged_at(&share->s->aged, n)->at, hands) == hand)
+            aged_corners(&share->s->aged, share->c, n);
 }
 
 static void renew_job(void *on, uint32_t hand, uint32_t hands)
@@ -359,6 +368,7 @@ status surface_update(surface *s, const clay *c, surface_counts *counts_out)
     update_share share = {s, c};
     crew_run(c->crew, aged_count(&s->aged), examine_job, &share);
     r = patches_open(s, c);
+    crew_run(c->crew, aged_count(&s->aged), age_job, &share);
     crew_run(c->crew, aged_count(&s->aged), renew_job, &share);
     status settled = patches_settle(s, &counts);
     if (counts_out)

@@ -45,6 +45,7 @@ public:
     std::string difference(bool normals) const;
     uint64_t vertices() const; /* each cut edge once, over all patches */
     uint64_t number() const { return dabs_ours; } /* of our next dab */
+    void number_from(uint64_t n) { dabs_ours = n; }
     /* Memory held for the field, for the surface: pools, trees, arrays with their spare room. */
     double clay_bytes() const;
     double surface_bytes() const;

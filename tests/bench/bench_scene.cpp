@@ -27,8 +27,7 @@ void bench_scene::restore()
 {
     clay_clear(&rig->field_clay);
     bench_rig_demand(clay_copy(&rig->field_clay, &pristine) == STATUS_OK, "clay_copy");
-    surface_counts counts;
-    bench_rig_demand(surface_rebuild(&rig->skin, &rig->field_clay, &counts) == STATUS_OK, "surface_rebuild");
+    bench_rig_demand(surface_rebuild(&rig->skin, &rig->field_clay, nullptr) == STATUS_OK, "surface_rebuild");
     dirt_clear(&rig->field_clay.dirty);
     if (vdb)
         vdb->restore();

@@ -3,6 +3,8 @@
 
 #include "vtk_peer.h"
 
+#include "clay/capacity.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -58,8 +60,12 @@ void print_whole(const bench_scene &s, const char *name, double ms, uint64_t tri
 
 void print_memory(const bench_scene &s, bench_record &record)
 {
+    /* Of engines that hold this object and never held more. */
     const double corners = static_cast<double>(s.pristine.corners);
-    const double field = s.rig->clay_bytes() / corners, skin = s.rig->surface_bytes() / corners;
+    bench_rig fresh(CAPACITY_BRICKS, 1);
+    bench_rig_demand(clay_copy(&fresh.field_clay, &s.pristine) == STATUS_OK, "clay_copy");
+    bench_rig_demand(surface_rebuild(&fresh.skin, &fresh.field_clay, nullptr) == STATUS_OK, "surface_rebuild");
+    const double field = fresh.clay_bytes() / corners, skin = fresh.surface_bytes() / corners;
     std::printf("  bytes a stored corner: ours %.1f, and %.1f for the surface; %.1f corners a brick", field, skin,
                 corners / clay_brick_count(&s.rig->field_clay));
     std::vector<bench_record::number> numbers = {{"field", field}, {"surface", skin}};

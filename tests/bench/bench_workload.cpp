@@ -8,9 +8,10 @@
  *   --object 1M|20M  only that one
  *   --radius R       only 4, 8, 16 or 32, and no other table
  *   --soak           only: a hundred thousand dabs, memory every ten thousand; exit code 1 when it grows
- *   --threads N      1; with 2 the probe's thread stays out of the way
+ *   --threads N      1; with 2 what the second thread brings is measured, and nothing else
  *   --json FILE      the same numbers for programs */
 #include "bench_dabs.h"
+#include "bench_hands.h"
 #include "bench_stroke.h"
 #include "bench_whole.h"
 #include "vtk_peer.h"
@@ -119,6 +120,13 @@ void print_legend()
 
 void run(const options &o, bench_record &record, bool *flat)
 {
+    if (o.threads > 1) {
+        for (const std::string &name : o.objects) {
+            bench_scene scene(name);
+            bench_hands_measure(scene, o.quick, record);
+        }
+        return;
+    }
     /* The probe pins this thread; OpenVDB and VTK keep to it. */
     bench_clock_probe probe(o.threads);
     bench_dabs_setting set = {o.quick, o.threads, 1, 1};

@@ -302,4 +302,182 @@ TEST_F(clay_piece, validator_sees_damage)
     EXPECT_TRUE(clay_is_valid(&c));
 }
 
+/* --- which corners are inside: kept by every way of writing --- */
+
+void expect_inside(const clay *c)
+{
+    avl_walk w;
+    key at;
+    uint32_t id;
+    for (bool more = avl_first(&w, &c->tree, &at, &id); more; more = avl_next(&w, &at, &id)) {
+        const brick *b = clay_brick(c, id);
+        for (int n = 0; n < BRICK_CORNERS; n++)
+            ASSERT_EQ(brick_mask_has(&b->inside, n), b->page->potential[n] >= POTENTIAL_ISO) << at.i << ' ' << n;
+    }
+}
+
+const float round_iso[] = {0, 0.1f, std::nextafter(1.5f, 0.0f), 1.5f, std::nextafter(1.5f, 2.0f), 3, 7};
+
+TEST_F(clay_piece, inside_follows_single_corners)
+{
+    seeded chance = {5};
+    for (int n = 0; n < 1500; n++) {
+        write(seeded_key(chance, -3, 3), round_iso[seeded_int(chance, 0, 6)], 9);
+        if (n % 50 == 0) {
+            ASSERT_NO_FATAL_FAILURE(expect_inside(&c));
+        }
+    }
+    expect_inside(&c);
+}
+
+TEST_F(clay_piece, inside_follows_closing_copying_and_reverting)
+{
+    seeded chance = {6};
+    const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    for (int round = 0; round < 20; round++) {
+        if (round % 2)
+            clay_change_begin(&c);
+        for (int n = 0; n < 3; n++) {
+            uint32_t id;
+            ASSERT_EQ(clay_brick_open(&c, {n, round % 3, 0}, &id), STATUS_OK);
+            for (int slot = 0; slot < BRICK_CORNERS; slot++)
+                clay_brick(&c, id)->page->potential[slot] = round_iso[seeded_int(chance, 0, 6)];
+            ASSERT_EQ(clay_brick_close(&c, id, &all), STATUS_OK);
+        }
+        clay_prune(&c);
+        ASSERT_NO_FATAL_FAILURE(expect_inside(&c)) << "closed";
+        clay copy;
+        ASSERT_EQ(clay_init(&copy, 20), STATUS_OK);
+        ASSERT_EQ(clay_copy(&copy, &c), STATUS_OK);
+        ASSERT_NO_FATAL_FAILURE(expect_inside(&copy)) << "copied";
+        clay_finish(&copy);
+        if (round % 4 == 1)
+            clay_change_revert(&c);
+        else if (round % 4 == 3)
+            clay_change_end(&c);
+        ASSERT_NO_FATAL_FAILURE(expect_inside(&c)) << "reverted";
+    }
+}
+
+TEST_F(clay_piece, validator_sees_a_wrong_inside)
+{
+    write({0, 0, 0}, 2, 9);
+    write({0, 0, 1}, 1, 9);
+    brick *b = clay_brick(&c, clay_find(&c, {0, 0, 0}));
+    b->inside.slab[0] = 3;
+    EXPECT_FALSE(clay_is_valid(&c));
+    b->inside.slab[0] = 0;
+    EXPECT_FALSE(clay_is_valid(&c));
+    b->inside.slab[0] = 1;
+    EXPECT_TRUE(clay_is_valid(&c));
+}
+
+/* --- what writers say that keep the invariant themselves --- */
+
+TEST_F(clay_piece, settle_takes_the_brick_for_what_it_is_told)
+{
+    write({0, 0, 0}, 1, 9);
+    write({0, 0, 1}, 2, 9);
+    write({9, 9, 9}, 1, 9);
+    const uint64_t digest = clay_digest(&c);
+    dirt_clear(&c.dirty);
+    uint32_t id;
+    ASSERT_EQ(clay_brick_open(&c, {0, 0, 0}, &id), STATUS_OK);
+    brick_page *p = clay_brick(&c, id)->page;
+    ASSERT_EQ(clay_digest(&c), digest); /* known again, and out of date with the next line */
+    p->potential[0] = 0;
+    p->rgba[0] = COLOUR_NONE;
+    p->potential[64] = 1.5f;
+    p->potential[65] = 0.5f;
+    p->rgba[1] = 10;
+    clay_written now = {};
+    now.stored = 3;
+    now.inside.slab[0] = 2;
+    now.inside.slab[1] = 1;
+    now.dirtied.slab[0] = 3;
+    now.dirtied.slab[1] = 3;
+    now.moved.slab[0] = 1;
+    now.moved.slab[1] = 3;
+    clay_brick_settle(&c, id, &now);
+    EXPECT_TRUE(clay_is_valid(&c));
+    EXPECT_EQ(c.corners, 4u);
+    EXPECT_NE(clay_digest(&c), digest);
+    ASSERT_EQ(dirt_count(&c.dirty), 1u);
+    const dirt_entry *e = clay_dirt(&c, {0, 0, 0});
+    ASSERT_NE(e, nullptr);
+    EXPECT_EQ(e->brick_id, id);
+    for (int n = 0; n < BRICK_EDGE; n++) {
+        EXPECT_EQ(e->corners.slab[n], now.dirtied.slab[n]);
+        EXPECT_EQ(e->moved.slab[n], now.moved.slab[n]);
+    }
+    now.dirtied.slab[0] = now.moved.slab[0] = 4; /* marks are united, the rest is as told last */
+    clay_brick_settle(&c, id, &now);
+    EXPECT_EQ(e->corners.slab[0], 7u);
+    EXPECT_EQ(e->moved.slab[0], 5u);
+    EXPECT_EQ(c.corners, 4u);
+}
+
+TEST_F(clay_piece, settled_empty_bricks_are_pruned)
+{
+    write({0, 0, 0}, 1, 9);
+    const uint32_t id = clay_find(&c, {0, 0, 0});
+    clay_brick(&c, id)->page->potential[0] = 0;
+    clay_brick(&c, id)->page->rgba[0] = COLOUR_NONE;
+    clay_written now = {};
+    now.dirtied.slab[0] = now.moved.slab[0] = 1;
+    clay_brick_settle(&c, id, &now);
+    EXPECT_EQ(c.corners, 0u);
+    clay_prune(&c);
+    EXPECT_EQ(clay_brick_count(&c), 0u);
+    EXPECT_EQ(clay_digest(&c), 0u);
+    EXPECT_TRUE(clay_is_valid(&c));
+}
+
+size_t bytes_held(const clay &c)
+{
+    return pool_bytes(&c.bricks) + pool_bytes(&c.pages) + pool_bytes(&c.tree.nodes) + pool_bytes(&c.changes.images) +
+           pool_bytes(&c.changes.index.nodes) + pool_bytes(&c.dirty.entries) + pool_bytes(&c.dirty.absent.nodes);
+}
+
+TEST_F(clay_piece, what_was_reserved_is_written_without_asking_the_machine)
+{
+    enum { MANY = 150 }; /* pages come 64 a slab */
+    write({-800, 0, 0}, 1, 9);
+    dirt_clear(&c.dirty);
+    clay_change_begin(&c);
+    clay_need need = {0, 0, 0};
+    for (int n = 0; n < MANY; n++)
+        clay_need_add(&c, &need, {n, 0, 0}, POOL_NONE, true);
+    clay_need_add(&c, &need, {-100, 0, 0}, clay_find(&c, {-100, 0, 0}), true);
+    clay_need_add(&c, &need, {-1, 0, 0}, POOL_NONE, false);
+    EXPECT_EQ(need.bricks, uint64_t{MANY});
+    EXPECT_EQ(need.images, uint64_t{MANY + 1});
+    EXPECT_EQ(need.marks, uint64_t{MANY + 2});
+    ASSERT_EQ(clay_reserve(&c, &need), STATUS_OK);
+    const size_t held = bytes_held(c);
+    for (int n = 0; n < MANY; n++)
+        write({8 * n, 0, 0}, 1, 9);
+    write({-800, 0, 0}, 2, 9);
+    write({-8, 0, 0}, 0, 9); /* only marked */
+    EXPECT_EQ(bytes_held(c), held);
+    EXPECT_EQ(clay_brick_count(&c), uint32_t{MANY + 1});
+    EXPECT_EQ(change_count(&c.changes), uint32_t{MANY + 1});
+    EXPECT_EQ(dirt_count(&c.dirty), uint32_t{MANY + 2});
+    for (int n = 0; n < MANY; n++) /* their entries move into the tree, which must have room too */
+        write({8 * n, 0, 0}, 0, 9);
+    EXPECT_EQ(bytes_held(c), held);
+}
+
+TEST_F(clay_piece, reserving_too_much_is_refused_and_changes_nothing)
+{
+    write({0, 0, 0}, 1, 9);
+    const size_t held = bytes_held(c);
+    for (const clay_need &need : {clay_need{1000, 0, 0}, clay_need{0, 1001, 0}, clay_need{0, 0, 3000}})
+        EXPECT_EQ(clay_reserve(&c, &need), STATUS_POOL_FULL);
+    EXPECT_EQ(bytes_held(c), held);
+    EXPECT_EQ(clay_brick_count(&c), 1u);
+    const clay_need last = {999, 1000, 0};
+    EXPECT_EQ(clay_reserve(&c, &last), STATUS_OK);
+}
+
 } // namespace

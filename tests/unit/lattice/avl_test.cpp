@@ -131,6 +131,51 @@ TEST_F(avl_tree, clear_empties)
     expect_walk({5});
 }
 
+TEST_F(avl_tree, seek_begins_at_the_first_key_that_is_not_smaller)
+{
+    avl_walk w;
+    key k;
+    uint32_t value;
+    EXPECT_FALSE(avl_seek(&w, &t, {0, 0, 0}, &k, &value)) << "nothing in it";
+    insert({8, 4, 12, 2, 6, 10, 14, 16, 18, 20, 22});
+    for (int from = 1; from <= 24; from++)
+        for (int dj = -1; dj <= 1; dj++) { /* just before that key, that key itself, just after it */
+            std::vector<int> wanted, seen;
+            for (int at = 2; at <= 22; at += 2)
+                if (at > from || (at == from && dj <= 0))
+                    wanted.push_back(at);
+            const key begin = {from, -from + dj, 0};
+            for (bool more = avl_seek(&w, &t, begin, &k, &value); more; more = avl_next(&w, &k, &value)) {
+                ASSERT_EQ(value, static_cast<uint32_t>(k.i + 1000));
+                seen.push_back(k.i);
+            }
+            ASSERT_EQ(seen, wanted) << from << ' ' << dj;
+            ASSERT_FALSE(avl_next(&w, &k, &value)) << "the end stays the end";
+        }
+}
+
+TEST_F(avl_tree, seek_orders_by_i_then_j_then_k)
+{
+    const std::vector<key> all = {{-1, 5, 5}, {0, -3, 9}, {0, 0, -2}, {0, 0, 0}, {0, 0, 7}, {0, 1, -8}, {2, -9, -9}};
+    for (size_t n = 0; n < all.size(); n++)
+        ASSERT_EQ(avl_insert(&t, all[n], static_cast<uint32_t>(n)), STATUS_OK);
+    for (int i = -2; i <= 3; i++)
+        for (int j = -10; j <= 6; j++)
+            for (int k = -10; k <= 10; k++) {
+                size_t wanted = 0;
+                while (wanted < all.size() && key_compare(all[wanted], {i, j, k}) < 0)
+                    wanted++;
+                avl_walk w;
+                key at = {77, 77, 77};
+                uint32_t value = 77;
+                ASSERT_EQ(avl_seek(&w, &t, {i, j, k}, &at, &value), wanted < all.size());
+                if (wanted < all.size()) {
+                    ASSERT_EQ(value, wanted) << i << ' ' << j << ' ' << k;
+                    ASSERT_TRUE(key_equal(at, all[wanted]));
+                }
+            }
+}
+
 TEST_F(avl_tree, validator_sees_disorder)
 {
     insert({1, 2, 3});

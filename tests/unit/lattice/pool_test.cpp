@@ -2,7 +2,8 @@
 /* Goal: a pool hands out items that never overlap and never move, no more than its limit, and takes them back in any
  *       order.
  * Method: every capacity from 1 to 64 with several sizes of item: a phase that mostly takes, one that mostly gives,
- *         every byte of a taken item filled with a sentinel that is checked before it goes back. */
+ *         every byte of a taken item filled with a sentinel that is checked before it goes back. Reserving is judged by
+ *         pool_bytes: takes after it open no slab. */
 #include "lattice/pool.h"
 
 #include "tests/property/seeded.h"
@@ -154,6 +155,89 @@ TEST(pool, opens_slabs_only_when_needed_and_keeps_them)
     ASSERT_EQ(pool_take(&p, &id), STATUS_OK);
     EXPECT_EQ(id, 0u) << "cleared: lowest id first";
     EXPECT_EQ(pool_bytes(&p), one);
+    pool_finish(&p);
+}
+
+/* Reserves, takes that many, and sees that no take had to ask for memory. */
+void expect_reserved(pool &p, uint32_t more)
+{
+    ASSERT_EQ(pool_reserve(&p, more), STATUS_OK);
+    const size_t held = pool_bytes(&p);
+    for (uint32_t n = 0; n < more; n++) {
+        uint32_t id;
+        ASSERT_EQ(pool_take(&p, &id), STATUS_OK);
+        ASSERT_EQ(pool_bytes(&p), held) << "take " << n << " of " << more << " opened a slab";
+    }
+}
+
+TEST(pool, what_is_reserved_is_taken_without_asking_the_machine)
+{
+    for (uint32_t before : {0u, 1u, 63u, 64u, 65u, 130u})
+        for (uint32_t more : {0u, 1u, 62u, 63u, 64u, 65u, 128u, 200u, 300u}) {
+            SCOPED_TRACE(testing::Message() << before << " taken, " << more << " more");
+            pool p;
+            uint32_t id;
+            ASSERT_EQ(pool_init(&p, 4096, 1000), STATUS_OK); /* 64 a slab */
+            for (uint32_t n = 0; n < before; n++)
+                ASSERT_EQ(pool_take(&p, &id), STATUS_OK);
+            expect_reserved(p, more);
+            pool_finish(&p);
+        }
+}
+
+TEST(pool, reserving_counts_what_was_given_back)
+{
+    seeded chance = {5};
+    pool p;
+    ASSERT_EQ(pool_init(&p, 4096, 500), STATUS_OK);
+    std::vector<uint32_t> live(200);
+    for (uint32_t &id : live)
+        ASSERT_EQ(pool_take(&p, &id), STATUS_OK);
+    const size_t held = pool_bytes(&p);
+    for (int n = 0; n < 50; n++) {
+        const size_t which = static_cast<size_t>(seeded_int(chance, 0, static_cast<int64_t>(live.size()) - 1));
+        pool_give(&p, live[which]);
+        live[which] = live.back();
+        live.pop_back();
+    }
+    ASSERT_EQ(pool_reserve(&p, 50), STATUS_OK);
+    EXPECT_EQ(pool_bytes(&p), held) << "fifty lie ready";
+    expect_reserved(p, 130); /* those, and more than the slab begun has */
+    EXPECT_GT(pool_bytes(&p), held);
+    pool_finish(&p);
+}
+
+TEST(pool, reserving_takes_nothing_and_asks_for_no_more_than_it_was_told)
+{
+    pool p;
+    ASSERT_EQ(pool_init(&p, 4096, 1000), STATUS_OK);
+    ASSERT_EQ(pool_reserve(&p, 0), STATUS_OK);
+    EXPECT_EQ(pool_bytes(&p), 0u);
+    ASSERT_EQ(pool_reserve(&p, 1), STATUS_OK);
+    const size_t one = pool_bytes(&p);
+    EXPECT_GT(one, 0u);
+    ASSERT_EQ(pool_reserve(&p, 1), STATUS_OK);
+    EXPECT_EQ(pool_bytes(&p), one);
+    EXPECT_EQ(p.count, 0u);
+    EXPECT_EQ(pool_room(&p), 1000u);
+    pool_clear(&p);
+    expect_reserved(p, 64);
+    EXPECT_EQ(pool_bytes(&p), one) << "what was open before the clearing still is";
+    pool_finish(&p);
+}
+
+TEST(pool, cannot_reserve_beyond_the_limit)
+{
+    pool p;
+    ASSERT_EQ(pool_init(&p, 4096, 100), STATUS_OK);
+    EXPECT_EQ(pool_reserve(&p, 101), STATUS_POOL_FULL);
+    EXPECT_EQ(pool_reserve(&p, UINT32_MAX), STATUS_POOL_FULL);
+    EXPECT_EQ(pool_bytes(&p), 0u) << "a refusal changes nothing";
+    expect_reserved(p, 60);
+    EXPECT_EQ(pool_reserve(&p, 41), STATUS_POOL_FULL);
+    expect_reserved(p, 40);
+    EXPECT_EQ(pool_reserve(&p, 1), STATUS_POOL_FULL);
+    EXPECT_EQ(pool_reserve(&p, 0), STATUS_OK);
     pool_finish(&p);
 }
 

@@ -111,20 +111,25 @@ static uint32_t reach_of(const brick_mask *m)
     return i & j & k & ~(uint32_t)TWICE_ABOVE;
 }
 
-static status stored_reach(aged *a, const clay *c, uint32_t brick_id, const brick_mask *dirtied)
+static key neighbour_key(key at, int n) { return key_add(at, n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1); }
+
+/* orphans: a brick that is not stored may have a patch all the same, whose corners age like any others. */
+static status stored_reach(aged *a, const clay *c, uint32_t brick_id, const brick_mask *dirtied, bool orphans)
 {
     const brick *b = clay_brick(c, brick_id);
     status r = STATUS_OK;
     for (uint32_t left = reach_of(dirtied); left && r == STATUS_OK; left &= left - 1) {
-        uint32_t id = b->neighbour[__builtin_ctz(left)];
-        if (id != POOL_NONE)
-            r = stored_add(a, c, id);
+        const int n = __builtin_ctz(left);
+        if (b->neighbour[n] != POOL_NONE)
+            r = stored_add(a, c, b->neighbour[n]);
+        else if (orphans)
+            r = absent_add(a, neighbour_key(b->at, n));
     }
     return r;
 }
 
 /* A brick that was dirtied and is gone: all round it may see that. */
-static status gone_reach(aged *a, const clay *c, key at)
+static status gone_reach(aged *a, const clay *c, key at, bool orphans)
 {
     uint32_t ids[BRICK_NEIGHBOURS];
     status r = STATUS_OK;
@@ -133,8 +138,8 @@ static status gone_reach(aged *a, const clay *c, key at)
         const int d[3] = {n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1};
         if (ids[n] != POOL_NONE)
             r = stored_add(a, c, ids[n]);
-        else if (d[0] <= 0 && d[1] <= 0 && d[2] <= 0)
-            r = absent_add(a, key_add(at, d[0], d[1], d[2]));
+        else if (orphans || (d[0] <= 0 && d[1] <= 0 && d[2] <= 0))
+            r = absent_add(a, neighbour_key(at, n));
     }
     return r;
 }
@@ -211,7 +216,8 @@ status aged_mark(aged *a, const clay *c, bool orphans)
     for (uint32_t n = 0; n < dirt_count(&c->dirty) && r == STATUS_OK; n++) {
         const dirt_entry *d = dirt_at(&c->dirty, n);
         a->gone |= d->brick_id == POOL_NONE;
-        r = d->brick_id == POOL_NONE ? gone_reach(a, c, d->at) : stored_reach(a, c, d->brick_id, &d->corners);
+        r = d->brick_id == POOL_NONE ? gone_reach(a, c, d->at, orphans)
+                                     : stored_reach(a, c, d->brick_id, &d->corners, orphans);
     }
     uint32_t count = aged_count(a);
     for (uint32_t n = 0; n < count && r == STATUS_OK; n++)

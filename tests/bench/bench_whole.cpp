@@ -138,7 +138,7 @@ bool bench_whole_soak(bench_scene &s, int dabs, bench_record &record)
         const int turn = n / 3;
         bench_object_dab d = paths[static_cast<size_t>(turn % 3)][static_cast<size_t>(turn / 3 * 7 % places)];
         d.kind = kinds[n % 3];
-        s.rig->ours(d);
+        s.rig->apply(d);
         if ((n + 1) % (dabs / 10) != 0)
             continue;
         const double took_us = 1e6 * (bench_clock_wall_s() - start) / (dabs / 10);

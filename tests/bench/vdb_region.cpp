@@ -3,6 +3,7 @@
 
 #include "clay/potential.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 

@@ -184,6 +184,26 @@ TEST(dirt, all_that_are_stored_may_go_after_reserving)
     dirt_finish(&d);
 }
 
+/* More than a slab of the tree holds, one after the other. */
+TEST(dirt, whatever_was_marked_may_go_without_asking_the_machine)
+{
+    enum { MANY = 20000 };
+    dirt d;
+    ASSERT_EQ(dirt_init(&d, MANY), STATUS_OK);
+    std::vector<brick> all;
+    for (int n = 0; n < MANY; n++)
+        all.push_back(fresh_brick({n, 0, 0}));
+    uint32_t entry;
+    for (brick &b : all)
+        ASSERT_EQ(dirt_open_stored(&d, &b, static_cast<uint32_t>(b.at.i), &entry), STATUS_OK);
+    const size_t held = pool_bytes(&d.absent.nodes);
+    for (const brick &b : all)
+        dirt_gone(&d, &b);
+    EXPECT_EQ(avl_count(&d.absent), uint32_t{MANY});
+    EXPECT_EQ(pool_bytes(&d.absent.nodes), held);
+    dirt_finish(&d);
+}
+
 /* --- through clay --- */
 
 TEST(dirt_of_clay, a_brick_made_emptied_and_made_again_keeps_its_one_entry)

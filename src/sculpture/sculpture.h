@@ -11,7 +11,8 @@
  * Errors:  a refused dab leaves the clay as before the dab; a refused stroke (surface or history failed) as before the
  *          stroke, and the stroke is over (in_stroke is false). A refused undo or redo leaves everything. The status
  *          says why.
- * Cost:    see tool.h, surface.h, history.h; sculpture adds nothing per corner.
+ * Cost:    see tool.h, surface.h, history.h; sculpture adds nothing per corner. Threads (clay.crew, lattice/crew.h) and
+ *          vectors (clay.rows, lattice/lanes.h) are set after opening by whoever has them; the bits are the same.
  * Source:  000 sections 3 and 4.
  */
 #ifndef GLAISE_SCULPTURE_SCULPTURE_H

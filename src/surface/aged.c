@@ -72,15 +72,18 @@ static status stored_add(aged *a, const clay *c, uint32_t brick_id)
     return r;
 }
 
-static status absent_add(aged *a, key at)
+static status absent_add(aged *a, key at, bool may_cross)
 {
-    uint32_t n;
-    if (avl_find(&a->absent, at) != POOL_NONE)
+    uint32_t n = avl_find(&a->absent, at);
+    if (n != POOL_NONE) {
+        aged_at(a, n)->may_cross |= may_cross;
         return STATUS_OK;
+    }
     status r = entry_make(a, at, POOL_NONE, &n);
     if (r != STATUS_OK)
         return r;
     memset(&aged_at(a, n)->corners, 0xff, sizeof(brick_mask));
+    aged_at(a, n)->may_cross = may_cross;
     return avl_insert(&a->absent, at, n);
 }
 
@@ -123,7 +126,7 @@ static status stored_reach(aged *a, const clay *c, uint32_t brick_id, const bric
         if (b->neighbour[n] != POOL_NONE)
             r = stored_add(a, c, b->neighbour[n]);
         else if (orphans)
-            r = absent_add(a, neighbour_key(b->at, n));
+            r = absent_add(a, neighbour_key(b->at, n), false);
     }
     return r;
 }
@@ -139,7 +142,7 @@ static status gone_reach(aged *a, const clay *c, key at, bool orphans)
         if (ids[n] != POOL_NONE)
             r = stored_add(a, c, ids[n]);
         else if (orphans || (d[0] <= 0 && d[1] <= 0 && d[2] <= 0))
-            r = absent_add(a, neighbour_key(at, n));
+            r = absent_add(a, neighbour_key(at, n), true);
     }
     return r;
 }
@@ -150,8 +153,9 @@ static status borders_add(aged *a, const clay *c, uint32_t brick_id, bool orphan
     status r = STATUS_OK;
     for (int down = 1; down < 8 && r == STATUS_OK; down++) {
         const int di = -(down >> 2), dj = -(down >> 1 & 1), dk = -(down & 1);
-        if (b->neighbour[brick_neighbour_index(di, dj, dk)] == POOL_NONE && (orphans || brick_comes_to_border(b, down)))
-            r = absent_add(a, key_add(b->at, di, dj, dk));
+        bool may_cross = brick_comes_to_border(b, down);
+        if (b->neighbour[brick_neighbour_index(di, dj, dk)] == POOL_NONE && (orphans || may_cross))
+            r = absent_add(a, key_add(b->at, di, dj, dk), may_cross);
     }
     return r;
 }

@@ -27,6 +27,7 @@ typedef struct aged_brick {
     uint32_t brick_id; /* POOL_NONE: not stored */
     brick_mask corners; /* of those wanted, once aged_corners was there */
     bool is_wanted;
+    bool may_cross; /* not stored: may have cubes that cross although it had no patch */
     /* For the surface's own use while it works the entries off. */
     brick_mask crossing;
     uint32_t slot;

@@ -212,6 +212,10 @@ enum { DO_NOTHING, DO_CLOSE, DO_OPEN, DO_RENEW, DID_NOTHING, DID_MAKE, DID_CHANG
 static void brick_examine(surface *s, const clay *c, aged_brick *e, polygonizer *p)
 {
     e->slot = slot_of(s, c, e->brick_id, e->at);
+    if (e->brick_id == POOL_NONE && e->slot == POOL_NONE && !e->may_cross) {
+        e->outcome = DO_NOTHING;
+        return;
+    }
     polygonizer_look(p, c, e->at, e->brick_id);
     polygonizer_crossing(p, &e->crossing);
     bool has = e->slot != POOL_NONE, crosses = !brick_mask_is_empty(&e->crossing);
@@ -423,7 +427,7 @@ static void patches_sweep(surface *s, const clay *c, polygonizer *p)
 static status brick_rebuild(surface *s, const clay *c, key at, uint32_t brick_id, polygonizer *p,
                             surface_counts *counts, bool counting)
 {
-    aged_brick e = {.at = at, .brick_id = brick_id};
+    aged_brick e = {.at = at, .brick_id = brick_id, .may_cross = true};
     bool is_other;
     brick_examine(s, c, &e, p);
     if (counting)

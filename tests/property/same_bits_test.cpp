@@ -11,7 +11,7 @@
 #include "tool/tool.h"
 
 /* Property programs are linked with sculpture and what is below it; of station this one file is wanted. */
-#include "station/crew_of_threads.cpp"
+#include "station/crew_of_threads.h"
 
 #include "tests/property/plain_clay.h"
 

@@ -336,8 +336,9 @@ static void renew_job(void *on, uint32_t hand, uint32_t hands)
     polygonizer p;
     for (uint32_t n = 0; n < aged_count(&share->s->aged); n++) {
         aged_brick *e = aged_at(&share->s->aged, n);
-        if ((e->outcome == DO_OPEN || e->outcome == DO_RENEW) && e->slot != POOL_NONE &&
-            crew_hand_of(e->at, hands) == hand)
+        if (crew_hand_of(e->at, hands) != hand) /* first: the rest of the entry is its own hand's */
+            continue;
+        if ((e->outcome == DO_OPEN || e->outcome == DO_RENEW) && e->slot != POOL_NONE)
             brick_renew(share->s, share->c, e, &p);
     }
 }

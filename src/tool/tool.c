@@ -142,7 +142,7 @@ static void act_job(void *on, uint32_t hand, uint32_t hands)
     const act_share *share = (const act_share *)on;
     for (uint32_t n = 0; n < share->scratch->works.count; n++) {
         tool_work *work = work_at(share->scratch, n);
-        if ((work->page != NULL) == share->in_scratch && crew_hand_of(work->rows.at, hands) == hand)
+        if (crew_hand_of(work->rows.at, hands) == hand && (work->page != NULL) == share->in_scratch)
             act(share->dab, share->c, work);
     }
 }

@@ -49,7 +49,12 @@ typedef struct brick {
     brick_page *page;
 } brick;
 
+/* Bits of a slab with dk 0, and with dk 7. */
+#define BRICK_K_FIRST 0x0101010101010101u
+#define BRICK_K_LAST 0x8080808080808080u
+
 static inline int brick_neighbour_index(int di, int dj, int dk) { return (di + 1) * 9 + (dj + 1) * 3 + (dk + 1); }
+static inline key brick_neighbour_key(key at, int n) { return key_add(at, n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1); }
 static inline void brick_mask_set(brick_mask *m, int slot) { m->slab[slot >> 6] |= (uint64_t)1 << (slot & 63); }
 static inline bool brick_mask_has(const brick_mask *m, int slot) { return m->slab[slot >> 6] >> (slot & 63) & 1; }
 static inline void brick_mask_unite(brick_mask *m, const brick_mask *with)
@@ -76,11 +81,11 @@ static inline bool brick_mask_is_empty(const brick_mask *m)
    is not stored, only then can cubes between them cross the surface. */
 static inline bool brick_comes_to_border(const brick *b, int down)
 {
-    const uint64_t k_first = 0x0101010101010101u, rows = down & 2 ? 0xff : ~(uint64_t)0;
+    const uint64_t rows = down & 2 ? 0xff : ~(uint64_t)0;
     uint64_t any = b->inside.slab[0];
     for (int di = 1; di < BRICK_EDGE && !(down & 4); di++)
         any |= b->inside.slab[di];
-    return (any & rows & (down & 1 ? k_first : ~(uint64_t)0)) != 0;
+    return (any & rows & (down & 1 ? BRICK_K_FIRST : ~(uint64_t)0)) != 0;
 }
 
 #ifdef __cplusplus

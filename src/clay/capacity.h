@@ -15,8 +15,8 @@
 /* Images of bricks as they were before the stroke: a stroke may touch the whole sculpture once. */
 #define CAPACITY_IMAGES CAPACITY_BRICKS
 
-/* Bricks marked dirty at one time: all of them (after a load), as many empty ones that an eraser passes, and one for
-   every image, held back so that a change can be reverted whatever is marked. */
+/* Bricks marked dirty at one time: all of them (after a load), as many empty ones that an eraser passes (marked where
+   dabs are counted), and one for every image, held back so that a change can be reverted whatever is marked. */
 #define CAPACITY_DIRT (2u * CAPACITY_BRICKS + CAPACITY_IMAGES)
 
 /* Patches: one per brick, and one per empty brick whose cubes reach into a stored one. */

@@ -51,8 +51,6 @@ void clay_clear(clay *c)
 
 /* --- bricks come and go --- */
 
-static key neighbour_key(key at, int n) { return key_add(at, n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1); }
-
 /* Three bricks in a row along k follow each other in the tree: nine searches for all 27. */
 static void neighbours_search(const clay *c, key at, uint32_t ids_out[BRICK_NEIGHBOURS])
 {
@@ -60,9 +58,9 @@ static void neighbours_search(const clay *c, key at, uint32_t ids_out[BRICK_NEIG
         avl_walk w;
         key next;
         uint32_t id;
-        bool more = avl_seek(&w, &c->tree, neighbour_key(at, row), &next, &id);
+        bool more = avl_seek(&w, &c->tree, brick_neighbour_key(at, row), &next, &id);
         for (int n = row; n < row + 3; n++) {
-            bool is_it = more && key_equal(next, neighbour_key(at, n));
+            bool is_it = more && key_equal(next, brick_neighbour_key(at, n));
             ids_out[n] = is_it ? id : POOL_NONE;
             if (is_it)
                 more = avl_next(&w, &next, &id);
@@ -456,7 +454,7 @@ static bool brick_is_valid(const clay *c, uint32_t id)
     if (stored != b->stored || stored == 0)
         return false;
     for (int n = 0; n < BRICK_NEIGHBOURS; n++)
-        if (b->neighbour[n] != clay_find(c, neighbour_key(b->at, n)))
+        if (b->neighbour[n] != clay_find(c, brick_neighbour_key(b->at, n)))
             return false;
     return true;
 }

@@ -97,3 +97,17 @@ size_t pool_bytes(const pool *p)
             bytes += slab_items(p) * p->item_bytes;
     return bytes;
 }
+
+status pool_shadow(const pool *p, void **array, uint32_t *room, size_t item_bytes)
+{
+    if (p->fresh <= *room)
+        return STATUS_OK;
+    uint32_t grown = p->fresh + p->fresh / 2; /* bricks come one by one */
+    void *moved = realloc(*array, grown * item_bytes);
+    if (!moved)
+        return STATUS_NO_MEMORY;
+    memset((char *)moved + *room * item_bytes, 0, (grown - *room) * item_bytes);
+    *array = moved;
+    *room = grown;
+    return STATUS_OK;
+}

@@ -48,6 +48,10 @@ void pool_give(pool *p, uint32_t id);
 /* Everything back at once; slabs stay. */
 void pool_clear(pool *p);
 
+/* Somebody's own notes on a pool's items, kept beside it: grows *array, of *room items of item_bytes, until every id
+   that was ever taken has one; new ones are zero. STATUS_NO_MEMORY leaves the array as it was. The caller frees it. */
+STATUS_CHECKED status pool_shadow(const pool *p, void **array, uint32_t *room, size_t item_bytes);
+
 static inline uint32_t pool_room(const pool *p) { return p->limit - p->count; }
 size_t pool_bytes(const pool *p); /* memory held in slabs */
 

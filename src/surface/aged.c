@@ -4,10 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bits of a slab (bit dj*8 + dk) with dk 0, and with dk 7. */
-#define K_FIRST 0x0101010101010101u
-#define K_LAST 0x8080808080808080u
-
 status aged_init(aged *a, uint32_t limit)
 {
     memset(a, 0, sizeof *a);
@@ -37,16 +33,10 @@ static status begin(aged *a, const clay *c)
         memset(a->link, 0, a->links * sizeof *a->link);
         a->round = 1;
     }
-    if (c->bricks.fresh <= a->links)
-        return STATUS_OK;
-    uint32_t links = c->bricks.fresh + c->bricks.fresh / 2;
-    aged_link *link = realloc(a->link, links * sizeof *link);
-    if (!link)
-        return STATUS_NO_MEMORY;
-    memset(link + a->links, 0, (links - a->links) * sizeof *link);
-    a->link = link;
-    a->links = links;
-    return STATUS_OK;
+    void *link = a->link;
+    status r = pool_shadow(&c->bricks, &link, &a->links, sizeof *a->link);
+    a->link = (aged_link *)link;
+    return r;
 }
 
 static status entry_make(aged *a, key at, uint32_t brick_id, uint32_t *n_out)
@@ -109,12 +99,10 @@ static uint32_t reach_of(const brick_mask *m)
     i |= m->slab[7] != 0 ? ABOVE_I : 0;
     j |= (any & 0xffff) != 0 ? BELOW_J : 0;
     j |= any >> 56 != 0 ? ABOVE_J : 0;
-    k |= (any & (K_FIRST | K_FIRST << 1)) != 0 ? BELOW_K : 0;
-    k |= (any & K_LAST) != 0 ? ABOVE_K : 0;
+    k |= (any & (BRICK_K_FIRST | BRICK_K_FIRST << 1)) != 0 ? BELOW_K : 0;
+    k |= (any & BRICK_K_LAST) != 0 ? ABOVE_K : 0;
     return i & j & k & ~(uint32_t)TWICE_ABOVE;
 }
-
-static key neighbour_key(key at, int n) { return key_add(at, n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1); }
 
 /* orphans: a brick that is not stored may have a patch all the same, whose corners age like any others. */
 static status stored_reach(aged *a, const clay *c, uint32_t brick_id, const brick_mask *dirtied, bool orphans)
@@ -126,7 +114,7 @@ static status stored_reach(aged *a, const clay *c, uint32_t brick_id, const bric
         if (b->neighbour[n] != POOL_NONE)
             r = stored_add(a, c, b->neighbour[n]);
         else if (orphans)
-            r = absent_add(a, neighbour_key(b->at, n), false);
+            r = absent_add(a, brick_neighbour_key(b->at, n), false);
     }
     return r;
 }
@@ -142,7 +130,7 @@ static status gone_reach(aged *a, const clay *c, key at, bool orphans)
         if (ids[n] != POOL_NONE)
             r = stored_add(a, c, ids[n]);
         else if (orphans || (d[0] <= 0 && d[1] <= 0 && d[2] <= 0))
-            r = absent_add(a, neighbour_key(at, n), true);
+            r = absent_add(a, brick_neighbour_key(at, n), true);
     }
     return r;
 }
@@ -195,8 +183,8 @@ static void corners_age(aged_brick *e, const clay *c, bool gone)
         e->corners.slab[n] |= n > 0 ? m->slab[n - 1] : below[0]->slab[7];
         e->corners.slab[n] |= n < 7 ? m->slab[n + 1] : above[0]->slab[0];
         e->corners.slab[n] |= w << 8 | below[1]->slab[n] >> 56 | w >> 8 | above[1]->slab[n] << 56;
-        e->corners.slab[n] |= (w & ~K_LAST) << 1 | (below[2]->slab[n] & K_LAST) >> 7;
-        e->corners.slab[n] |= (w & ~K_FIRST) >> 1 | (above[2]->slab[n] & K_FIRST) << 7;
+        e->corners.slab[n] |= (w & ~BRICK_K_LAST) << 1 | (below[2]->slab[n] & BRICK_K_LAST) >> 7;
+        e->corners.slab[n] |= (w & ~BRICK_K_FIRST) >> 1 | (above[2]->slab[n] & BRICK_K_FIRST) << 7;
     }
 }
 

@@ -3,9 +3,6 @@
 
 #include <string.h>
 
-/* Bits of a slab (bit dj*8 + dk) with dk 0. */
-#define K_FIRST 0x0101010101010101u
-
 status examined_init(examined *e, uint32_t limit) { return dirt_init(&e->cubes, limit); }
 
 void examined_finish(examined *e) { dirt_finish(&e->cubes); }
@@ -22,8 +19,8 @@ static void mask_down(const brick_mask *m, int axis, brick_mask *own_out, brick_
             own_out->slab[n] = w >> 8;
             below_out->slab[n] = w << 56;
         } else {
-            own_out->slab[n] = (w & ~K_FIRST) >> 1;
-            below_out->slab[n] = (w & K_FIRST) << 7;
+            own_out->slab[n] = (w & ~BRICK_K_FIRST) >> 1;
+            below_out->slab[n] = (w & BRICK_K_FIRST) << 7;
         }
     }
     if (axis == 0)

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "surface/polygonizer.h"
 
-/* Bits of a slab (bit dj*8 + dk) with dk 0, and all but those with dk 7. */
-#define K_FIRST 0x0101010101010101u
-#define K_BUT_LAST 0x7f7f7f7f7f7f7f7fu
-
 void polygonizer_look(polygonizer *p, const clay *c, key brick_at, uint32_t brick_id)
 {
     p->of = c;
@@ -23,7 +19,7 @@ void polygonizer_look(polygonizer *p, const clay *c, key brick_at, uint32_t bric
 static uint64_t word_of(const polygonizer *p, int n, int s) { return p->above[n] ? p->above[n]->inside.slab[s] : 0; }
 
 /* Bit dk of a row becomes that of corner dk + 1, the last one out of the brick above. */
-static uint64_t next_k(uint64_t w, uint64_t above) { return (w >> 1 & K_BUT_LAST) | (above & K_FIRST) << 7; }
+static uint64_t next_k(uint64_t w, uint64_t above) { return (w >> 1 & ~BRICK_K_LAST) | (above & BRICK_K_FIRST) << 7; }
 
 void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out)
 {
@@ -58,15 +54,4 @@ uint32_t polygonizer_stored_cubes(const polygonizer *p)
             sum += (uint32_t)__builtin_popcount((any | any >> 1) & 0xff);
         }
     return sum;
-}
-
-void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing)
-{
-    (void)LANES_PICK(polygonizer_run, p->of->rows)(p, t, crossing, NULL, NULL);
-}
-
-polygonizer_outcome polygonizer_remake(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                       const brick_mask *const aged[8], const patch *old)
-{
-    return LANES_PICK(polygonizer_run, p->of->rows)(p, t, crossing, aged, old);
 }

@@ -4,7 +4,7 @@
  *          surface, and turns those into vertices and triangles. Of a patch that is there already, vertices that have
  *          not aged are kept as they are, and triangles as long as no corner changed sides.
  * Is not:  The keeper of patches, nor does it know which are stale (surface.h, aged.h).
- * Shape:   polygonizer_look -> polygonizer_crossing -> polygonizer_make or _remake; the result stays in `vertices` and
+ * Shape:   polygonizer_look -> polygonizer_crossing -> polygonizer_make; the result stays in `vertices` and
  *          `triangles` until the next one. Order and fields: patch.h; position, normal and colour: surface.h.
  *          Cut edges are found row by row in the bits, vertices are made VEC_LANES at a time (polygonizer_rows.c).
  * Units:   lattice steps from the brick's smallest corner.
@@ -69,19 +69,20 @@ void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out);
 /* Number of the brick's cubes that have a stored corner: its part of the paper's CubesTree. */
 uint32_t polygonizer_stored_cubes(const polygonizer *p);
 
-/* crossing: what polygonizer_crossing said. */
-void polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing);
-/* aged: of the eight bricks of `above`, the aged corners; NULL: none. old: the patch as it was before they aged. */
-polygonizer_outcome polygonizer_remake(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                       const brick_mask *const aged[8], const patch *old);
-
-/* polygonizer_rows.c. aged, old: NULL to make all. */
-polygonizer_outcome polygonizer_run_plain(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                          const brick_mask *const aged[8], const patch *old);
-polygonizer_outcome polygonizer_run_avx2(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                         const brick_mask *const aged[8], const patch *old);
-polygonizer_outcome polygonizer_run_avx512(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                           const brick_mask *const aged[8], const patch *old);
+/* polygonizer_rows.c. */
+polygonizer_outcome polygonizer_make_plain(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                           const brick_mask *const aged_at[8], const patch *old);
+polygonizer_outcome polygonizer_make_avx2(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                          const brick_mask *const aged_at[8], const patch *old);
+polygonizer_outcome polygonizer_make_avx512(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                            const brick_mask *const aged_at[8], const patch *old);
+/* crossing: what polygonizer_crossing said. old: the patch as it was; NULL: there was none, or all is to be made.
+   aged_at: of the eight bricks of `above`, the corners that aged since; NULL: none. */
+static inline polygonizer_outcome polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                                   const brick_mask *const aged_at[8], const patch *old)
+{
+    return LANES_PICK(polygonizer_make, p->of->rows)(p, t, crossing, aged_at, old);
+}
 
 #ifdef __cplusplus
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "surface/polygonizer.h"
 
-#include "clay/colour.h"
-#include "lattice/vec.h"
+#include "clay/colour_rows.h"
 
 /* Vertices keep this distance, in steps, from the ends of their edges: those of one corner never coincide. */
 #define END_CLEARANCE 1e-3f
@@ -29,7 +28,7 @@ static void rows_join(const brick_mask *const mask[8], polygonizer_bits *out)
 }
 
 /* Bit n of nine becomes bit 3 n. */
-static inline __attribute__((always_inline)) unsigned spread_by_three(unsigned x)
+VEC_INLINE unsigned spread_by_three(unsigned x)
 {
 #if defined(__BMI2__)
     return _pdep_u32(x, 0x1249249u);
@@ -42,7 +41,7 @@ static inline __attribute__((always_inline)) unsigned spread_by_three(unsigned x
 }
 
 /* Bit n of nine becomes bit 4 n. */
-static inline __attribute__((always_inline)) uint64_t spread_by_four(unsigned x)
+VEC_INLINE uint64_t spread_by_four(unsigned x)
 {
     uint64_t low = x & 0xff;
     low = (low | low << 12) & 0x000f000fu;
@@ -85,17 +84,6 @@ static inline void batch_read(batch *b, int n, const polygonizer *p, const polyg
     b->rgba_high[n] = corner_rgba(p, o->d[0] + (o->axis == 0), o->d[1] + (o->axis == 1), o->d[2] + (o->axis == 2));
 }
 
-/* colour_mix, half way rounding up. */
-VEC_INLINE vec_u mix(vec_u from, vec_u to, vec_f weight)
-{
-    vec_u out = {0};
-    for (int n = 0; n < 4; n++) {
-        vec_f a = vec_float_of((vec_i)(from >> (8 * n) & 255)), b = vec_float_of((vec_i)(to >> (8 * n) & 255));
-        out |= (vec_u)vec_int_of(a + (b - a) * weight + 0.5f) << (8 * n);
-    }
-    return out;
-}
-
 /* Position, normal and colour as surface.h has them. Differences are left undivided: twice the gradient has the same
    direction. */
 static inline void batch_make(batch *b)
@@ -124,7 +112,9 @@ static inline void batch_make(batch *b)
     vec_u rgba_low = vec_load_u(b->rgba_low), rgba_high = vec_load_u(b->rgba_high);
     vec_u rgba_in = vec_pick_u(up, rgba_low, rgba_high), rgba_out = vec_pick_u(up, rgba_high, rgba_low);
     rgba_out = vec_pick_u(vec_gt(out, vec_all(POTENTIAL_MIN)), rgba_out, rgba_in);
-    vec_store_u(b->rgba, mix(rgba_in, rgba_out, t));
+    vec_f to[4];
+    colour_rows_channels(rgba_out, to);
+    vec_store_u(b->rgba, colour_rows_mix(rgba_in, to, t, vec_all(0.5f))); /* half way rounds up */
 }
 
 static inline void batch_write(const batch *b, int n, const polygonizer_order *o, patch_vertex *v)
@@ -192,7 +182,7 @@ static void rows_cut(const brick_mask *crossing, uint16_t rows_out[PATCH_SIDE])
 }
 
 /* A row's cut edges, bit dk * 3 + axis. */
-static inline __attribute__((always_inline)) unsigned edges_cut(const polygonizer_bits *in, int di, int dj)
+VEC_INLINE unsigned edges_cut(const polygonizer_bits *in, int di, int dj)
 {
     unsigned row = in->row[di][dj];
     unsigned cut_i = di < BRICK_EDGE ? row ^ in->row[di + 1][dj] : 0;
@@ -204,15 +194,15 @@ static inline __attribute__((always_inline)) unsigned edges_cut(const polygonize
 }
 
 /* A row's edges with an aged corner, likewise. */
-static inline __attribute__((always_inline)) unsigned edges_aged(const polygonizer_bits *aged, int di, int dj)
+VEC_INLINE unsigned edges_aged(const polygonizer_bits *aged, int di, int dj)
 {
     unsigned row = aged->row[di][dj];
-    unsigned i = di < BRICK_EDGE ? row | aged->row[di + 1][dj] : row, j = dj < BRICK_EDGE ? row | aged->row[di][dj + 1]
-                                                                                        : row;
+    unsigned i = di < BRICK_EDGE ? row | aged->row[di + 1][dj] : row;
+    unsigned j = dj < BRICK_EDGE ? row | aged->row[di][dj + 1] : row;
     return spread_by_three(i) | spread_by_three(j) << 1 | spread_by_three(row | row >> 1) << 2;
 }
 
-static inline __attribute__((always_inline)) void order_add(polygonizer *p, int di, int dj, int name, uint32_t vertex)
+VEC_INLINE void order_add(polygonizer *p, int di, int dj, int name, uint32_t vertex)
 {
     const uint8_t dk = (uint8_t)(name * 43 >> 7); /* a third, of what a row has */
     p->orders[p->order_count++] =
@@ -322,8 +312,8 @@ static void triangles_make(polygonizer *p, const case_table *t, const brick_mask
     p->triangle_count = (uint32_t)(out - begin) / 3;
 }
 
-polygonizer_outcome LANES_NAMED(polygonizer_run)(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                                 const brick_mask *const aged[8], const patch *old)
+polygonizer_outcome LANES_NAMED(polygonizer_make)(polygonizer *p, const case_table *t, const brick_mask *crossing,
+                                                  const brick_mask *const aged[8], const patch *old)
 {
     static const brick_mask nothing;
     const brick_mask *inside[8], *age[8];

@@ -165,16 +165,10 @@ static status patch_fill(patch *p, const polygonizer *made, polygonizer_outcome 
 
 static status links_grow(surface *s, const clay *c)
 {
-    if (c->bricks.fresh <= s->links)
-        return STATUS_OK;
-    uint32_t links = c->bricks.fresh + c->bricks.fresh / 2;
-    surface_link *link = realloc(s->link, links * sizeof *link);
-    if (!link)
-        return STATUS_NO_MEMORY;
-    memset(link + s->links, 0, (links - s->links) * sizeof *link);
-    s->link = link;
-    s->links = links;
-    return STATUS_OK;
+    void *link = s->link;
+    status r = pool_shadow(&c->bricks, &link, &s->links, sizeof *s->link);
+    s->link = (surface_link *)link;
+    return r;
 }
 
 static uint32_t slot_of(surface *s, const clay *c, uint32_t brick_id, key at)
@@ -256,8 +250,8 @@ static void brick_renew(surface *s, const clay *c, aged_brick *e, polygonizer *p
         above[n] = a ? &a->corners : NULL;
     }
     bool is_other;
-    polygonizer_outcome made = polygonizer_remake(p, &s->cases, &e->crossing, above,
-                                                  e->outcome == DO_OPEN ? NULL : of);
+    polygonizer_outcome made = polygonizer_make(p, &s->cases, &e->crossing, above,
+                                                e->outcome == DO_OPEN ? NULL : of);
     status r = patch_fill(of, p, made, &e->crossing, &is_other);
     e->outcome = is_other ? DID_CHANGE : made == POLYGONIZER_SAME ? DID_NOTHING : DID_MAKE;
     if (r != STATUS_OK)
@@ -435,19 +429,14 @@ static status brick_rebuild(surface *s, const clay *c, key at, uint32_t brick_id
         counts->treated += polygonizer_stored_cubes(p);
     if (e.outcome == DO_NOTHING)
         return STATUS_OK;
-    status r = STATUS_OK;
-    if (e.outcome == DO_OPEN && avl_find(&s->tree, at) != POOL_NONE) { /* the link was another clay's */
-        e.slot = avl_find(&s->tree, at);
-        e.outcome = DO_RENEW;
-    }
     if (e.outcome == DO_OPEN)
-        r = open_one(s, &e);
-    else
-        totals_move(s, patch_at(s, e.slot), -1);
+        e.slot = avl_find(&s->tree, at); /* the link may have been another clay's */
+    status r = e.slot == POOL_NONE ? open_one(s, &e) : STATUS_OK;
     if (r != STATUS_OK)
         return r;
+    totals_move(s, patch_at(s, e.slot), -1);
     slot_set(s, brick_id, e.slot);
-    polygonizer_make(p, &s->cases, &e.crossing);
+    (void)polygonizer_make(p, &s->cases, &e.crossing, NULL, NULL);
     r = patch_fill(patch_at(s, e.slot), p, POLYGONIZER_ALL, &e.crossing, &is_other);
     e.outcome = r == STATUS_OK ? DID_CHANGE : DID_FAIL;
     totals_settle(s, &e, counts);

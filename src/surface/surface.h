@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The iso-surface of a piece of clay, kept up to date by examining only the cubes that share a dirtied corner.
+ * What:    The iso-surface of a piece of clay, kept up to date by looking only at what a dirtied corner has aged.
  *          Patches by brick, each with a generation number, so that a viewer uploads what changed and nothing else.
  * Is not:  A mesh file (exchange); drawing (view); the exact topology of ambiguous cubes (case_table.h).
  * Shape:   a tree from brick key to patch. A patch exists iff one of its cubes crosses. Patches are walked by slot
@@ -15,8 +15,8 @@
  * Owner:   the caller owns the struct; surface owns patches and their arrays. One surface follows one clay.
  * Errors:  STATUS_POOL_FULL / STATUS_NO_MEMORY: the surface is then partly updated and must be brought back by
  *          surface_update after the clay was put back (what it showed before fits), or by surface_rebuild.
- * Cost:    per brick looked at, some 100 ns; per patch renewed, that and some 15 ns an aged vertex; where a corner
- *          changed sides, its triangles too. Counting the treated cubes costs a tree entry a brick.
+ * Cost:    per brick looked at, some 200 ns; per patch that changes, 2 to 3 us. Counting the treated cubes costs eight
+ *          tree entries a brick.
  * Source:  000 section 3.2. We differ: a corner's change also ages the normals of edges at its six neighbours.
  */
 #ifndef GLAISE_SURFACE_SURFACE_H

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "tool/action_rows.h"
 
-#include "lattice/vec.h"
-
-#define KERNEL static inline __attribute__((always_inline))
+#include "clay/colour_rows.h"
 
 /* What one vector of corners becomes. */
 typedef struct outcome {
@@ -15,16 +13,16 @@ typedef struct outcome {
 /* A dab's constants in every lane. */
 typedef struct constants {
     float gain, part;       /* amount / 3, min(amount, 1) */
-    float channel[4];       /* the tool's colour */
+    vec_f channel[4];       /* the tool's colour */
     float joint[3];         /* s, s + m, s + m + r of the deformation */
 } constants;
 
-KERNEL constants constants_of(const action_rows_dab *d)
+VEC_INLINE constants constants_of(const action_rows_dab *d)
 {
     const action_setting *s = d->set;
     constants k = {.gain = s->amount / POTENTIAL_MAX, .part = s->amount < 1 ? s->amount : 1};
     for (int n = 0; n < 4; n++)
-        k.channel[n] = (float)colour_channel(s->rgba, n);
+        k.channel[n] = vec_all((float)colour_channel(s->rgba, n));
     if (s->kind == ACTION_STAMP || s->kind == ACTION_PRINT) {
         k.joint[0] = (float)s->def->s;
         k.joint[1] = k.joint[0] + (float)s->def->m;
@@ -34,7 +32,7 @@ KERNEL constants constants_of(const action_rows_dab *d)
 }
 
 /* ellipsoid_wyvill. */
-KERNEL vec_f wyvill(vec_f x, vec_f y, vec_f z, vec_m *within)
+VEC_INLINE vec_f wyvill(vec_f x, vec_f y, vec_f z, vec_m *within)
 {
     vec_f rho2 = x * x + y * y + z * z, q = 1 - rho2;
     *within = vec_gt(vec_all(1), rho2);
@@ -42,7 +40,7 @@ KERNEL vec_f wyvill(vec_f x, vec_f y, vec_f z, vec_m *within)
 }
 
 /* deform_at, all three pieces in every lane. */
-KERNEL vec_f deform_of(const deform *def, const constants *k, vec_f v)
+VEC_INLINE vec_f deform_of(const deform *def, const constants *k, vec_f v)
 {
     vec_m later = vec_ge(v, vec_all(k->joint[0])), last = vec_ge(v, vec_all(k->joint[1]));
     vec_f u = v - vec_pick(last, vec_all(k->joint[1]), vec_pick(later, vec_all(k->joint[0]), vec_all(0)));
@@ -54,19 +52,13 @@ KERNEL vec_f deform_of(const deform *def, const constants *k, vec_f v)
     return vec_pick(vec_ge(v, vec_all(k->joint[2])), vec_all(0), ((p[0] * u + p[1]) * u + p[2]) * u + p[3]);
 }
 
-/* colour_mix with colour_dither. */
-KERNEL vec_u mix(const constants *k, vec_u from, vec_f weight, vec_u dither)
+/* colour_mix with the tool's colour and colour_dither. */
+VEC_INLINE vec_u mix(const constants *k, vec_u from, vec_f weight, vec_u dither)
 {
-    vec_f threshold = vec_float_of((vec_i)(dither >> 16)) / COLOUR_WHOLE;
-    vec_u out = {0};
-    for (int n = 0; n < 4; n++) {
-        vec_f a = vec_float_of((vec_i)(from >> (8 * n) & 255));
-        out |= (vec_u)vec_int_of(a + (k->channel[n] - a) * weight + threshold) << (8 * n);
-    }
-    return out;
+    return colour_rows_mix(from, k->channel, weight, vec_float_of((vec_i)(dither >> 16)) / COLOUR_WHOLE);
 }
 
-KERNEL outcome act(const action kind, const action_setting *s, const constants *k, vec_f v, vec_f f, vec_u rgba,
+VEC_INLINE outcome act(const action kind, const action_setting *s, const constants *k, vec_f v, vec_f f, vec_u rgba,
                    vec_u dither, const float *mean)
 {
     const vec_f zero = vec_all(0);
@@ -117,7 +109,7 @@ typedef struct slab_words {
 } slab_words;
 
 /* Writes what became of some corners. */
-KERNEL void settle(const action kind, float *potential, uint32_t *rgba_at, int n, vec_f f, vec_u rgba, outcome o,
+VEC_INLINE void settle(const action kind, float *potential, uint32_t *rgba_at, int n, vec_f f, vec_u rgba, outcome o,
                    slab_words *w)
 {
     const vec_f zero = vec_all(POTENTIAL_MIN);
@@ -136,7 +128,7 @@ KERNEL void settle(const action kind, float *potential, uint32_t *rgba_at, int n
     w->moved |= (uint64_t)(moves ? vec_bits(vec_ne(to, f)) : 0) << n;
 }
 
-KERNEL void slab_settle(action_rows_brick *b, int di, const slab_words *w)
+VEC_INLINE void slab_settle(action_rows_brick *b, int di, const slab_words *w)
 {
     b->now.stored += (uint32_t)__builtin_popcountll(w->is) - (uint32_t)__builtin_popcountll(w->was);
     b->now.inside.slab[di] = (b->now.inside.slab[di] & ~w->reached) | w->inside;
@@ -156,7 +148,7 @@ static void slab_evaluate(const action_rows_dab *d, const float at[3], float v_t
 }
 
 /* May the slab that begins at this point reach into the unit ball? Never false wrongly. */
-KERNEL bool is_near_ball(const walk *w, const float at[3])
+VEC_INLINE bool is_near_ball(const walk *w, const float at[3])
 {
     float squared = 0;
     for (int a = 0; a < 3; a++) {
@@ -166,7 +158,7 @@ KERNEL bool is_near_ball(const walk *w, const float at[3])
     return squared <= 1.001f;
 }
 
-KERNEL bool brick_act(const action kind, const bool is_wyvill, const action_rows_dab *d, action_rows_brick *b)
+VEC_INLINE bool brick_act(const action kind, const bool is_wyvill, const action_rows_dab *d, action_rows_brick *b)
 {
     const constants k = constants_of(d);
     const key first = key_of_brick(b->at);
@@ -236,7 +228,7 @@ bool LANES_NAMED(action_rows)(const action_rows_dab *d, action_rows_brick *b)
 
 /* Of each number and those one and two strides on: the whole block at once, ends of rows and all, is faster than row by
    row; what means nothing there is never looked at. */
-KERNEL void one_two_one(const float *restrict from, int stride, int count, float *restrict to)
+VEC_INLINE void one_two_one(const float *restrict from, int stride, int count, float *restrict to)
 {
     for (int n = 0; n < count; n++) {
         float b = from[n + stride];

@@ -6,7 +6,6 @@
 #include "tool/census.h"
 #include "tool/walk.h"
 
-#include <math.h>
 #include <string.h>
 
 /* One brick of the dab. */
@@ -21,7 +20,11 @@ status tool_scratch_init(tool_scratch *s, uint32_t bricks)
 {
     memset(s, 0, sizeof *s);
     status outcome = pool_init(&s->works, sizeof(tool_work), bricks);
-    return outcome == STATUS_OK ? pool_init(&s->pages, sizeof(brick_page), bricks) : outcome;
+    if (outcome == STATUS_OK)
+        outcome = pool_init(&s->pages, sizeof(brick_page), bricks);
+    if (outcome != STATUS_OK)
+        tool_scratch_finish(s);
+    return outcome;
 }
 
 void tool_scratch_finish(tool_scratch *s)

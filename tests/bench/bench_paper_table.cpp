@@ -3,6 +3,7 @@
  * of a million corners; then whatever --benchmark_filter chooses, by Google Benchmark (its options and formats hold).
  * Both engines do the same dabs and are compared before anything is timed: on a difference the exit code is 1.
  * Rates are medians over rounds in which the two take turns: on a busy machine trust the ratio. */
+#include "bench_machine.h"
 #include "bench_piece.h"
 #include "bench_rig.h"
 
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <functional>
 #include <memory>
 
@@ -35,47 +35,6 @@ double quantile(std::vector<double> of, double part)
     return of[static_cast<size_t>(part * static_cast<double>(of.size() - 1) + 0.5)];
 }
 double median(const std::vector<double> &of) { return quantile(of, 0.5); }
-
-/* --- what the numbers hold for --- */
-
-std::string processor()
-{
-    std::ifstream info("/proc/cpuinfo");
-    std::string line;
-    while (std::getline(info, line))
-        for (const char *label : {"model name", "Model", "CPU part"})
-            if (line.rfind(label, 0) == 0 && line.find(':') != std::string::npos)
-                return line.substr(line.find(':') + 2);
-    return "unknown processor";
-}
-
-const char *vectors()
-{
-#if defined(__AVX512F__)
-    return "AVX-512";
-#elif defined(__AVX2__)
-    return "AVX2";
-#elif defined(__AVX__)
-    return "AVX";
-#elif defined(__SSE2__)
-    return "SSE2";
-#elif defined(__ARM_NEON)
-    return "NEON";
-#else
-    return "none";
-#endif
-}
-
-void print_machine()
-{
-#if defined(__clang__)
-    const char *compiler = "clang " __clang_version__;
-#else
-    const char *compiler = "gcc " __VERSION__;
-#endif
-    std::printf("machine   %s\ncompiler  %s\nflags     %s\nvectors   %s (what the compiler may use everywhere)\n\n",
-                processor().c_str(), compiler, BENCH_FLAGS, vectors());
-}
 
 /* --- the paper's object --- */
 
@@ -350,7 +309,7 @@ int main(int argc, char **argv)
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv))
         return 2;
-    print_machine();
+    std::printf("%s\n", bench_machine_text().c_str());
     auto made = make_character();
     print_character(made->rig);
     print_paper_table(*made);

@@ -12,6 +12,7 @@
  *   --json FILE      the same numbers for programs */
 #include "bench_dabs.h"
 #include "bench_hands.h"
+#include "bench_machine.h"
 #include "bench_stroke.h"
 #include "bench_whole.h"
 #include "vtk_peer.h"
@@ -78,30 +79,12 @@ options parse(int argc, char **argv)
     return o;
 }
 
-std::string processor()
-{
-    std::ifstream info("/proc/cpuinfo");
-    std::string line;
-    while (std::getline(info, line))
-        for (const char *label : {"model name", "Model", "CPU part"})
-            if (line.rfind(label, 0) == 0 && line.find(':') != std::string::npos)
-                return line.substr(line.find(':') + 2);
-    return "unknown processor";
-}
-
 void print_machine(bench_record &record)
 {
-#if defined(__clang__)
-    const char *compiler = "clang " __clang_version__;
-#else
-    const char *compiler = "gcc " __VERSION__;
-#endif
-    std::printf("machine   %s, %u threads\ncompiler  %s\nflags     %s\npeers     OpenVDB %s, one thread, compiled with "
-                "-O3 -march=native -DNDEBUG; VTK %s, one thread\n\n",
-                processor().c_str(), std::thread::hardware_concurrency(), compiler, BENCH_FLAGS,
-                vdb_peer_version().c_str(), vtk_peer_version().c_str());
+    std::printf("%speers     OpenVDB %s, one thread, compiled with -O3 -march=native -DNDEBUG; VTK %s, one thread\n\n",
+                bench_machine_text().c_str(), vdb_peer_version().c_str(), vtk_peer_version().c_str());
     record.add("machine",
-               {{"processor", processor()}, {"compiler", compiler}, {"flags", BENCH_FLAGS},
+               {{"processor", bench_machine_processor()}, {"compiler", bench_machine_compiler()}, {"flags", BENCH_FLAGS},
                 {"openvdb", vdb_peer_version()}, {"vtk", vtk_peer_version()}},
                {});
 }

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <vector>
@@ -270,6 +271,29 @@ TEST(pool_death, foreign_ids_are_our_bug)
     EXPECT_DEATH((void)pool_at(&p, POOL_NONE), "");
     pool_give(&p, id);
     EXPECT_DEATH(pool_give(&p, id), "");
+    pool_finish(&p);
+}
+
+/* Notes on items stay with their ids as the pool grows, and new ids have none. */
+TEST(pool_shadow, follows_the_pool_and_begins_at_zero)
+{
+    pool p;
+    ASSERT_EQ(pool_init(&p, 64, 5000), STATUS_OK);
+    void *notes = nullptr;
+    uint32_t room = 0, id = 0;
+    ASSERT_EQ(pool_shadow(&p, &notes, &room, sizeof(uint64_t)), STATUS_OK);
+    EXPECT_EQ(room, 0u) << "nothing was taken yet";
+    for (uint32_t n = 0; n < 5000; n++) {
+        ASSERT_EQ(pool_take(&p, &id), STATUS_OK);
+        ASSERT_EQ(pool_shadow(&p, &notes, &room, sizeof(uint64_t)), STATUS_OK);
+        ASSERT_GT(room, id);
+        uint64_t *mine = static_cast<uint64_t *>(notes);
+        ASSERT_EQ(mine[id], 0u);
+        mine[id] = uint64_t{n} + 1;
+    }
+    for (uint32_t n = 0; n < 5000; n++)
+        ASSERT_EQ(static_cast<uint64_t *>(notes)[n], uint64_t{n} + 1);
+    std::free(notes);
     pool_finish(&p);
 }
 

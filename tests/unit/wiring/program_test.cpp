@@ -332,6 +332,47 @@ TEST_F(program, a_record_does_the_same_again)
     }
 }
 
+/* A tool of 60 mm covers more bricks than one hand keeps to itself. */
+TEST_F(program, vectors_and_hands_leave_the_same_bits)
+{
+    const std::string tape = "glaise tape 1\n@0 size 60 60 60\n+0 rate 20\n+0 apply down\n+200 apply up\n";
+    const std::string one = digests(tape, {"--vectors", "plain", "--hands", "1"});
+    ASSERT_EQ(one.rfind("\"field_digest\"", 0), 0u) << one;
+    EXPECT_EQ(digests(tape, {"--vectors", "plain", "--hands", "3"}), one);
+    EXPECT_EQ(digests(tape, {"--vectors", "best", "--hands", "2"}), one);
+    EXPECT_EQ(digests(tape), one);
+    EXPECT_NE(digests(BALL), one);
+}
+
+TEST_F(program, vectors_and_hands_that_are_not_there_are_refused)
+{
+    put(at("ball.tape"), BALL);
+    for (const std::vector<std::string> &words :
+         {std::vector<std::string>{"--vectors", "AVX-9000"}, {"--hands", "17"}, {"--hands", "-1"}}) {
+        const outcome o = run({"replay", at("ball.tape"), words[0], words[1]});
+        EXPECT_EQ(o.exit, 2) << words[1];
+        EXPECT_NE(o.err.find(words[0]), std::string::npos) << o.err;
+    }
+}
+
+/* What is asked for as statistics is counted as the paper counts: one dab of a ball of radius 20 on a 1 mm lattice. */
+TEST_F(program, statistics_count_what_a_dab_visits_computes_dirties_and_treats)
+{
+    ASSERT_EQ(digests(BALL).rfind("\"field_digest\"", 0), 0u);
+    const std::string json = text_of(at("digests.json"));
+    double count[4] = {};
+    const char *const names[4] = {"\"visited\": ", "\"computed\": ", "\"dirtied\": ", "\"treated\": "};
+    for (int n = 0; n < 4; n++) {
+        const size_t place = json.find(names[n]);
+        ASSERT_NE(place, std::string::npos) << names[n];
+        count[n] = std::stod(json.substr(place + std::strlen(names[n])));
+    }
+    EXPECT_GE(count[0], count[1]);
+    EXPECT_GT(count[1], count[2]) << "the box has corners that the ball has not";
+    EXPECT_GT(count[3], count[2]) << "more cubes share dirtied corners than there are such corners";
+    EXPECT_GT(count[2], 1000.0);
+}
+
 TEST_F(program, undo_goes_back_into_an_earlier_run)
 {
     const std::string second = "+0 colour #3060a0\n+0 place 15 0 0\n+0 apply down\n+0 glide 25 5 0 200\n+200 apply up\n";

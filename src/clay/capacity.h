@@ -7,7 +7,7 @@
 #ifndef GLAISE_CLAY_CAPACITY_H
 #define GLAISE_CLAY_CAPACITY_H
 
-/* A 4 GB box gives the sculpture 2 GiB: a brick is a 4 KiB page, its entry (240 B) and a tree node (28 B), and a
+/* A 4 GB box gives the sculpture 2 GiB: a brick is a 4 KiB page, its entry (300 B) and a tree node (28 B), and a
    patch with its vertices about as much again at usual occupancy: 2 GiB / 8.5 KiB = 250 thousand bricks, which at
    170 stored corners a brick is 42 million corners. */
 #define CAPACITY_BRICKS 250000u
@@ -22,8 +22,16 @@
 /* Patches: one per brick, and one per empty brick whose cubes reach into a stored one. */
 #define CAPACITY_PATCHES (2u * CAPACITY_BRICKS)
 
-/* Bricks one dab may cover: a tool of 32 steps needs about 1,300; this is a tool of 128 steps. 4.5 KiB of scratch
-   each, where the dab is not acted out in place. */
+/* Bricks one dab may cover: a tool of 32 steps needs about 1,300; this is a tool of 128 steps. A page more for each
+   that is not acted on where it lies. */
 #define CAPACITY_DAB_BRICKS 65536u
+
+/* Frozen clays at one time (freeze.h): one that is being saved, one that is being exported. */
+#define CAPACITY_FROZEN 2u
+
+/* Pages: besides those of bricks, what images and frozen clays may still hold of bricks written since, those of the dab
+   under way, and full ones kept for their colours. */
+#define CAPACITY_PAGES_MORE (CAPACITY_DAB_BRICKS + 64u)
+#define CAPACITY_PAGES(bricks) ((2u + CAPACITY_FROZEN) * (bricks) + CAPACITY_PAGES_MORE)
 
 #endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "clay/change.h"
 
-#include <string.h>
-
 status change_init(change *c, uint32_t limit)
 {
     c->recording = false;
@@ -34,7 +32,7 @@ status change_reserve(change *c, uint32_t more)
     return s == STATUS_OK ? pool_reserve(&c->index.nodes, more) : s;
 }
 
-status change_keep(change *c, key at, const brick_page *page, uint32_t *image_out)
+status change_keep(change *c, pages *p, key at, const brick *b, uint32_t *image_out)
 {
     uint32_t id = avl_find(&c->index, at);
     if (id == POOL_NONE) {
@@ -47,11 +45,13 @@ status change_keep(change *c, key at, const brick_page *page, uint32_t *image_ou
             return s;
         }
         change_image *image = (change_image *)pool_at(&c->images, id);
-        image->at = at;
-        if (page)
-            image->page = *page;
-        else
-            memset(&image->page, 0, sizeof image->page);
+        *image = (change_image){.at = at, .page_id = POOL_NONE};
+        if (b) {
+            image->page_id = b->page_id;
+            image->stored = b->stored;
+            image->inside = b->inside;
+            pages_hold(p, b->page_id);
+        }
     }
     *image_out = id;
     return STATUS_OK;

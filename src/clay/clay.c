@@ -7,6 +7,12 @@
 
 #include <string.h>
 
+static void image_give(clay *c, const change_image *image)
+{
+    if (image->page_id != POOL_NONE)
+        pages_give(&c->pages, image->page_id);
+}
+
 /* --- making and ending --- */
 
 status clay_init(clay *c, uint32_t bricks)
@@ -19,7 +25,7 @@ status clay_init(clay *c, uint32_t bricks)
     if (s == STATUS_OK)
         s = pool_init(&c->bricks, sizeof(brick), bricks);
     if (s == STATUS_OK)
-        s = pool_init(&c->pages, sizeof(brick_page), bricks);
+        s = pages_init(&c->pages, CAPACITY_PAGES(bricks));
     if (s == STATUS_OK)
         s = change_init(&c->changes, (uint32_t)((uint64_t)bricks * CAPACITY_IMAGES / CAPACITY_BRICKS));
     if (s == STATUS_OK)
@@ -31,9 +37,10 @@ status clay_init(clay *c, uint32_t bricks)
 
 void clay_finish(clay *c)
 {
+    assert(c->frozen == 0);
     avl_finish(&c->tree);
     pool_finish(&c->bricks);
-    pool_finish(&c->pages);
+    pages_finish(&c->pages);
     change_finish(&c->changes);
     dirt_finish(&c->dirty);
     c->corners = 0;
@@ -41,9 +48,13 @@ void clay_finish(clay *c)
 
 void clay_clear(clay *c)
 {
+    for (uint32_t n = 0; n < change_count(&c->changes); n++)
+        image_give(c, change_at(&c->changes, n));
+    for (uint32_t id = 0; id < c->bricks.fresh; id++)
+        if (clay_brick(c, id)->page != NULL)
+            pages_give(&c->pages, clay_brick(c, id)->page_id);
     avl_clear(&c->tree);
     pool_clear(&c->bricks);
-    pool_clear(&c->pages);
     change_clear(&c->changes);
     dirt_clear(&c->dirty);
     c->corners = 0;
@@ -87,18 +98,14 @@ static void link_up(clay *c, uint32_t id)
             clay_brick(c, b->neighbour[n])->neighbour[BRICK_NEIGHBOURS - 1 - n] = id;
 }
 
-static status brick_make(clay *c, key at, uint32_t *id_out)
+/* page_id: what is in the brick; its hold goes over to it. */
+static status brick_make(clay *c, key at, uint32_t page_id, uint32_t *id_out)
 {
-    uint32_t id, page_id;
+    uint32_t id;
     status s = pool_take(&c->bricks, &id);
     if (s != STATUS_OK)
         return s;
-    s = pool_take(&c->pages, &page_id);
-    if (s == STATUS_OK) {
-        s = avl_insert(&c->tree, at, id);
-        if (s != STATUS_OK)
-            pool_give(&c->pages, page_id);
-    }
+    s = avl_insert(&c->tree, at, id);
     brick *b = clay_brick(c, id);
     if (s != STATUS_OK) {
         b->page = NULL; /* or clay_digest would take it for a brick */
@@ -106,8 +113,7 @@ static status brick_make(clay *c, key at, uint32_t *id_out)
         return s;
     }
     *b = (brick){.at = at, .born = ++c->births, .image = POOL_NONE, .page_id = page_id};
-    b->page = (brick_page *)pool_at(&c->pages, page_id);
-    memset(b->page, 0, sizeof *b->page);
+    b->page = pages_at(&c->pages, page_id);
     link_up(c, id);
     dirt_born(&c->dirty, b, id);
     *id_out = id;
@@ -124,12 +130,43 @@ static void brick_drop(clay *c, uint32_t id)
     avl_remove(&c->tree, b->at);
     dirt_gone(&c->dirty, b);
     b->page = NULL; /* how clay_digest knows a given-back brick */
-    pool_give(&c->pages, b->page_id);
+    pages_give(&c->pages, b->page_id);
     pool_give(&c->bricks, id);
 }
 
-void clay_need_add(const clay *c, clay_need *need, key brick_at, uint32_t brick_id, bool opened)
+/* The hold on a page goes over to the brick, for that on the one it had. */
+static void brick_page_set(clay *c, brick *b, uint32_t page_id)
 {
+    pages_give(&c->pages, b->page_id);
+    b->page_id = page_id;
+    b->page = pages_at(&c->pages, page_id);
+}
+
+/* Of what is full of one colour, one page is enough. */
+static void brick_fold(clay *c, brick *b)
+{
+    for (int n = 0; n < BRICK_EDGE; n++)
+        if (b->inside.slab[n] != ~(uint64_t)0)
+            return;
+    if (!pages_is_full(b->page))
+        return;
+    b->page_id = pages_fold(&c->pages, b->page_id);
+    b->page = pages_at(&c->pages, b->page_id);
+}
+
+/* --- room --- */
+
+bool clay_page_is_kept(const clay *c, uint32_t id)
+{
+    const brick *b = clay_brick(c, id);
+    return (c->changes.recording && b->image == POOL_NONE) || pages_is_shared(&c->pages, b->page_id);
+}
+
+void clay_need_add(const clay *c, clay_need *need, key brick_at, uint32_t brick_id, clay_intent intent)
+{
+    const bool opened = intent != CLAY_MARK;
+    if (intent == CLAY_OPEN)
+        need->pages += brick_id == POOL_NONE || clay_page_is_kept(c, brick_id);
     if (brick_id != POOL_NONE) {
         const brick *b = clay_brick(c, brick_id);
         need->marks += dirt_of(&c->dirty, b) == POOL_NONE;
@@ -143,7 +180,8 @@ void clay_need_add(const clay *c, clay_need *need, key brick_at, uint32_t brick_
 
 status clay_need_fits(const clay *c, const clay_need *need)
 {
-    if (need->bricks > pool_room(&c->bricks) || need->images > pool_room(&c->changes.images))
+    if (need->bricks > pool_room(&c->bricks) || need->images > pool_room(&c->changes.images) ||
+        need->pages > pool_room(&c->pages.of))
         return STATUS_POOL_FULL;
     return need->marks + c->changes.images.limit > dirt_room(&c->dirty) ? STATUS_POOL_FULL : STATUS_OK;
 }
@@ -154,7 +192,7 @@ status clay_reserve(clay *c, const clay_need *need)
     if (s == STATUS_OK)
         s = pool_reserve(&c->bricks, (uint32_t)need->bricks);
     if (s == STATUS_OK)
-        s = pool_reserve(&c->pages, (uint32_t)need->bricks);
+        s = pages_reserve(&c->pages, (uint32_t)need->pages);
     if (s == STATUS_OK)
         s = pool_reserve(&c->tree.nodes, (uint32_t)need->bricks);
     if (s == STATUS_OK)
@@ -164,33 +202,74 @@ status clay_reserve(clay *c, const clay_need *need)
 
 status clay_room(const clay *c, uint64_t fresh, uint64_t touched)
 {
-    const clay_need need = {fresh, c->changes.recording ? touched : 0, touched};
+    const clay_need need = {fresh, touched, c->changes.recording ? touched : 0, touched};
     return clay_need_fits(c, &need);
+}
+
+/* --- writing --- */
+
+/* Of a brick just made there was none. */
+static status image_keep(clay *c, uint32_t id, bool fresh)
+{
+    brick *b = clay_brick(c, id);
+    if (!c->changes.recording || b->image != POOL_NONE)
+        return STATUS_OK;
+    return change_keep(&c->changes, &c->pages, b->at, fresh ? NULL : b, &b->image);
+}
+
+status clay_brick_turn(clay *c, key brick_at, uint32_t *id, uint32_t page_id)
+{
+    if (!key_brick_in_range(brick_at))
+        return STATUS_OUT_OF_RANGE;
+    const bool fresh = *id == POOL_NONE;
+    status s = fresh ? brick_make(c, brick_at, page_id, id) : STATUS_OK;
+    if (s != STATUS_OK)
+        return s;
+    s = image_keep(c, *id, fresh);
+    if (s == STATUS_OK && !fresh) {
+        brick_page_set(c, clay_brick(c, *id), page_id);
+        clay_brick(c, *id)->digest_known = false;
+    } else if (s != STATUS_OK && fresh) {
+        pages_hold(&c->pages, page_id); /* the caller's still */
+        brick_drop(c, *id);
+        *id = POOL_NONE;
+    }
+    return s;
+}
+
+/* A copy of the brick's page, or an empty one. */
+static status page_copy(clay *c, uint32_t id, uint32_t *page_id_out)
+{
+    status s = pages_take(&c->pages, page_id_out);
+    if (s != STATUS_OK)
+        return s;
+    brick_page *page = pages_at(&c->pages, *page_id_out);
+    if (id == POOL_NONE)
+        memset(page, 0, sizeof *page);
+    else
+        *page = *clay_brick(c, id)->page;
+    return STATUS_OK;
 }
 
 status clay_brick_open(clay *c, key brick_at, uint32_t *id_out)
 {
     if (!key_brick_in_range(brick_at))
         return STATUS_OUT_OF_RANGE;
-    uint32_t id = clay_find(c, brick_at);
-    bool fresh = id == POOL_NONE;
-    if (fresh) {
-        status s = brick_make(c, brick_at, &id);
-        if (s != STATUS_OK)
-            return s;
+    uint32_t id = clay_find(c, brick_at), page_id;
+    if (id != POOL_NONE && !clay_page_is_kept(c, id)) {
+        clay_brick(c, id)->digest_known = false;
+        *id_out = id;
+        return STATUS_OK;
     }
-    brick *b = clay_brick(c, id);
-    if (c->changes.recording && b->image == POOL_NONE) {
-        status s = change_keep(&c->changes, brick_at, fresh ? NULL : b->page, &b->image);
-        if (s != STATUS_OK) {
-            if (fresh)
-                brick_drop(c, id);
-            return s;
-        }
-    }
-    b->digest_known = false;
-    *id_out = id;
-    return STATUS_OK;
+    status s = page_copy(c, id, &page_id);
+    if (s != STATUS_OK)
+        return s;
+    s = clay_brick_turn(c, brick_at, &id, page_id);
+    if (s != STATUS_OK)
+        pages_give(&c->pages, page_id);
+    else
+        *id_out = id;
+    return s;
 }
 
 /* Restores the invariant on one row of eight. */
@@ -232,7 +311,10 @@ status clay_brick_close(clay *c, uint32_t id, const brick_mask *dirtied)
     }
     c->corners += (uint64_t)stored - b->stored;
     b->stored = stored;
-    return stored_mark(c, id, dirtied, dirtied);
+    status s = stored_mark(c, id, dirtied, dirtied);
+    if (s == STATUS_OK)
+        brick_fold(c, b);
+    return s;
 }
 
 status clay_mark(clay *c, key brick_at, const brick_mask *dirtied)
@@ -258,6 +340,7 @@ void clay_brick_settle(clay *c, uint32_t id, const clay_written *now)
     status s = stored_mark(c, id, &now->dirtied, &now->moved);
     assert(s == STATUS_OK);
     (void)s;
+    brick_fold(c, b);
 }
 
 void clay_prune(clay *c)
@@ -269,6 +352,27 @@ void clay_prune(clay *c)
     }
 }
 
+static status brick_copy(clay *to, const brick *from, uint32_t *id_out)
+{
+    uint32_t page_id;
+    status s = pages_take(&to->pages, &page_id);
+    if (s != STATUS_OK)
+        return s;
+    *pages_at(&to->pages, page_id) = *from->page;
+    s = brick_make(to, from->at, page_id, id_out);
+    if (s != STATUS_OK) {
+        pages_give(&to->pages, page_id);
+        return s;
+    }
+    brick *b = clay_brick(to, *id_out);
+    b->stored = from->stored;
+    b->inside = from->inside;
+    brick_fold(to, b);
+    return STATUS_OK;
+}
+
+/* --- whole clays --- */
+
 status clay_copy(clay *to, const clay *from)
 {
     assert(clay_brick_count(to) == 0);
@@ -279,16 +383,11 @@ status clay_copy(clay *to, const clay *from)
     uint32_t id;
     for (bool more = avl_first(&w, &from->tree, &at, &id); more; more = avl_next(&w, &at, &id)) {
         uint32_t copy;
-        status s = brick_make(to, at, &copy);
+        status s = brick_copy(to, clay_brick(from, id), &copy);
         if (s != STATUS_OK) {
             clay_clear(to);
             return s;
         }
-        const brick *b = clay_brick(from, id);
-        brick *d = clay_brick(to, copy);
-        *d->page = *b->page;
-        d->stored = b->stored;
-        d->inside = b->inside;
     }
     to->corners = from->corners;
     return STATUS_OK;
@@ -317,8 +416,8 @@ status clay_write(clay *c, key corner, float potential, uint32_t rgba)
     key at = key_brick(corner);
     int slot = key_slot(corner);
     bool opened = potential > POTENTIAL_MIN || clay_find(c, at) != POOL_NONE; /* nothing is removed from nothing */
-    clay_need need = {0, 0, 0};
-    clay_need_add(c, &need, at, clay_find(c, at), opened);
+    clay_need need = {0, 0, 0, 0};
+    clay_need_add(c, &need, at, clay_find(c, at), opened ? CLAY_OPEN : CLAY_MARK);
     status s = clay_reserve(c, &need); /* nothing is refused from here on */
     brick_mask m = {{0}};
     brick_mask_set(&m, slot);
@@ -350,44 +449,53 @@ void clay_change_begin(clay *c)
 static void images_forget(clay *c)
 {
     for (uint32_t n = 0; n < change_count(&c->changes); n++) {
-        uint32_t id = clay_find(c, change_at(&c->changes, n)->at);
+        const change_image *image = change_at(&c->changes, n);
+        uint32_t id = clay_find(c, image->at);
         if (id != POOL_NONE)
             clay_brick(c, id)->image = POOL_NONE;
+        image_give(c, image);
     }
     change_clear(&c->changes);
 }
 
-static bool page_is_empty(const brick_page *p)
+/* The brick as its image has it; its marks were held back. */
+static void image_put_back(clay *c, const change_image *image)
 {
-    for (int n = 0; n < BRICK_CORNERS; n++)
-        if (p->potential[n] > POTENTIAL_MIN)
-            return false;
-    return true;
+    static const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    uint32_t id = clay_find(c, image->at);
+    status s = STATUS_OK;
+    if (image->page_id != POOL_NONE) {
+        pages_hold(&c->pages, image->page_id);
+        if (id == POOL_NONE)
+            s = brick_make(c, image->at, image->page_id, &id);
+        else
+            brick_page_set(c, clay_brick(c, id), image->page_id);
+    }
+    assert(s == STATUS_OK);
+    const clay_written as_it_was = {.inside = image->inside, .dirtied = all, .moved = all, .stored = image->stored};
+    clay_brick_settle(c, id, &as_it_was);
 }
 
 void clay_change_revert(clay *c)
 {
-    const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
     c->changes.recording = false;
     /* Empty what was made since first, so that there is room to bring back what went. */
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t n = 0; n < change_count(&c->changes); n++) {
             const change_image *image = change_at(&c->changes, n);
-            if (page_is_empty(&image->page) != (pass == 0))
-                continue;
-            if (pass == 0 && clay_find(c, image->at) == POOL_NONE)
-                continue;
-            uint32_t id;
-            status s = clay_brick_open(c, image->at, &id);
-            assert(s == STATUS_OK);
-            *clay_brick(c, id)->page = image->page;
-            s = clay_brick_close(c, id, &all);
-            assert(s == STATUS_OK);
-            (void)s;
+            if ((image->stored == 0) == (pass == 0) && (pass == 1 || clay_find(c, image->at) != POOL_NONE))
+                image_put_back(c, image);
         }
         clay_prune(c);
     }
     images_forget(c);
+}
+
+const brick_page *clay_image_page(const clay *c, uint32_t n)
+{
+    static const brick_page empty;
+    const change_image *image = change_at(&c->changes, n);
+    return image->page_id == POOL_NONE ? &empty : pages_at(&c->pages, image->page_id);
 }
 
 void clay_change_end(clay *c) { images_forget(c); }
@@ -443,6 +551,8 @@ static bool brick_is_valid(const clay *c, uint32_t id)
 {
     const brick *b = clay_brick(c, id);
     uint32_t stored = 0;
+    if (b->page != pages_at(&c->pages, b->page_id))
+        return false;
     for (int n = 0; n < BRICK_CORNERS; n++) {
         float v = b->page->potential[n];
         if (brick_mask_has(&b->inside, n) != (v >= POTENTIAL_ISO))
@@ -459,9 +569,18 @@ static bool brick_is_valid(const clay *c, uint32_t id)
     return true;
 }
 
+/* Has every page as many holders as there are that know of it? Frozen clays are not asked. */
+static bool pages_are_valid(const clay *c)
+{
+    uint64_t known = c->bricks.count;
+    for (uint32_t n = 0; n < change_count(&c->changes); n++)
+        known += change_at(&c->changes, n)->page_id != POOL_NONE;
+    return pages_are_held(&c->pages, known, c->frozen > 0);
+}
+
 bool clay_is_valid(const clay *c)
 {
-    if (!avl_is_valid(&c->tree) || avl_count(&c->tree) != c->bricks.count || c->pages.count != c->bricks.count)
+    if (!avl_is_valid(&c->tree) || avl_count(&c->tree) != c->bricks.count)
         return false;
     uint64_t corners = 0;
     avl_walk w;
@@ -472,5 +591,5 @@ bool clay_is_valid(const clay *c)
             return false;
         corners += clay_brick(c, id)->stored;
     }
-    return corners == c->corners;
+    return corners == c->corners && pages_are_valid(c);
 }

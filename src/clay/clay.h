@@ -10,7 +10,8 @@
  *              clay_brick_open -> write the page -> clay_brick_close   ... and clay_prune when all are closed
  *
  * Units:   lattice steps; potentials in [0, 3] (potential.h).
- * Owner:   the caller owns the struct; clay owns bricks, pages, dirt and images. Page pointers hold until clay_prune.
+ * Owner:   the caller owns the struct; clay owns bricks, pages, dirt and images. Page pointers hold until the brick is
+ *          closed or settled: what is full of one colour then shares its page (pages.h).
  * Errors:  STATUS_POOL_FULL, STATUS_NO_MEMORY, STATUS_OUT_OF_RANGE; the clay is then as it was.
  * Cost:    a brick is found in O(log bricks), its neighbours in O(1).
  * Source:  000 section 3.1, 002 section 3. We differ: the tree holds bricks, not corners; "less than minVal is removed"
@@ -34,11 +35,12 @@ extern "C" {
 typedef struct clay {
     avl tree; /* brick key -> brick id */
     pool bricks;
-    pool pages;
+    struct pages pages;
     uint64_t corners; /* stored corners, over all bricks */
     uint64_t births;  /* bricks made so far */
     const struct crew *crew; /* works on this clay by brick; NULL: the caller alone */
     lanes rows;       /* the vectors that row kernels use on this clay: the best there are, or what a test wants */
+    uint32_t frozen;  /* how often (freeze.h) */
     change changes; /* bricks as they were before the stroke under way */
     dirt dirty;     /* corners dirtied since the surface was last brought up to date */
 } clay;
@@ -72,12 +74,17 @@ STATUS_CHECKED status clay_room(const clay *c, uint64_t fresh, uint64_t touched)
 /* What writing some bricks will take from the pools, to the last item: a stroke that stays where it is never runs
    out. */
 typedef struct clay_need {
-    uint64_t bricks, images, marks;
+    uint64_t bricks, pages, images, marks;
 } clay_need;
 
-/* Adds one brick, each once, with its id (POOL_NONE: not stored): `opened` says whether it will be opened (made if
-   absent) or only its dirt marked. */
-void clay_need_add(const clay *c, clay_need *need, key brick_at, uint32_t brick_id, bool opened);
+/* What is about to be done to a brick: its dirt marked; besides, clay_brick_open; or clay_brick_turn, whose page the
+   caller has taken. */
+typedef enum clay_intent { CLAY_MARK, CLAY_OPEN, CLAY_TURN } clay_intent;
+
+/* Adds one brick, each once, with its id (POOL_NONE: not stored). */
+void clay_need_add(const clay *c, clay_need *need, key brick_at, uint32_t brick_id, clay_intent intent);
+/* Must a brick's page be left as it is, because others hold it or an image is to be kept of it? */
+bool clay_page_is_kept(const clay *c, uint32_t id);
 /* STATUS_POOL_FULL unless there is room; as many marks as there can be images are held back, so that a change can be
    reverted. */
 STATUS_CHECKED status clay_need_fits(const clay *c, const clay_need *need);
@@ -87,8 +94,11 @@ STATUS_CHECKED status clay_reserve(clay *c, const clay_need *need);
 /* Ids of the 27 bricks round a brick key, POOL_NONE where absent; by links when the brick itself is stored. */
 void clay_neighbours(const clay *c, key brick_at, uint32_t ids_out[BRICK_NEIGHBOURS]);
 
-/* Brick for writing; made empty if absent; its image is kept if a change is being recorded. */
+/* Brick for writing, on a page of its own; made empty if absent; its image is kept if a change is being recorded. */
 STATUS_CHECKED status clay_brick_open(clay *c, key brick_at, uint32_t *id_out);
+/* The same for who knows the brick's id already (POOL_NONE: not stored; it is then made and its id told), and has
+   written on a page of c->pages what is to be in it: the brick becomes that page's holder. */
+STATUS_CHECKED status clay_brick_turn(clay *c, key brick_at, uint32_t *id, uint32_t page_id);
 /* Ends writing: `dirtied` says which corners had a contribution. Restores the invariant of brick.h on all 512 corners
    (clamps, removes, counts) and marks the dirt. Only that mark can fail, and not where the brick is marked already; the
    page then stays as it was written, and putting it back is the caller's. */
@@ -115,6 +125,8 @@ void clay_change_begin(clay *c);
    restores had room. */
 void clay_change_revert(clay *c);
 void clay_change_end(clay *c); /* forgets the images */
+/* What image n (change.h) shows of its brick; an empty page where that was not stored. */
+const brick_page *clay_image_page(const clay *c, uint32_t n);
 
 /* Smallest box of stored corners; empty when there are none. O(bricks). */
 box clay_box(const clay *c);

@@ -53,7 +53,7 @@ static const brick_page *page_walk_next(page_walk *w, key *at_out)
         page = clay_brick(w->c, w->brick_id)->page;
         *at_out = w->brick_at;
     } else {
-        page = &change_at(&w->c->changes, w->image_id)->page;
+        page = clay_image_page(w->c, w->image_id);
         *at_out = w->image_at;
     }
     if (order <= 0)

@@ -108,7 +108,7 @@ status undo_file_encode(const clay *c, undo_file_facts *facts, byte_buffer *out)
         status s = byte_buffer_reserve(out, out->size + BRICK_BYTES_MAX);
         if (s != STATUS_OK)
             return s;
-        const brick_page *old = &change_at(&c->changes, image)->page;
+        const brick_page *old = clay_image_page(c, image);
         uint32_t id = clay_find(c, at);
         const brick_page *now = id == POOL_NONE ? &empty_page : clay_brick(c, id)->page;
         brick_mask mask;

@@ -24,6 +24,12 @@ void avl_clear(avl *t)
     t->root = POOL_NONE;
 }
 
+status avl_copy(avl *to, const avl *from)
+{
+    to->root = from->root;
+    return pool_copy(&to->nodes, &from->nodes);
+}
+
 int avl_height(const avl *t) { return height_of(t, t->root); }
 
 uint32_t avl_find(const avl *t, key k)

@@ -45,6 +45,8 @@ typedef struct avl_walk {
 STATUS_CHECKED status avl_init(avl *t, uint32_t limit);
 void avl_finish(avl *t);
 void avl_clear(avl *t);
+/* to (uninitialised) becomes a duplicate of from. STATUS_NO_MEMORY leaves nothing. */
+STATUS_CHECKED status avl_copy(avl *to, const avl *from);
 
 static inline uint32_t avl_count(const avl *t) { return t->nodes.count; }
 int avl_height(const avl *t); /* 0 when empty */

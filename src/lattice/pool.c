@@ -89,6 +89,27 @@ void pool_clear(pool *p)
     p->free_head = POOL_NONE;
 }
 
+status pool_copy(pool *to, const pool *from)
+{
+    status s = pool_init(to, from->item_bytes, from->limit);
+    if (s != STATUS_OK)
+        return s;
+    s = pool_reserve(to, from->fresh);
+    if (s != STATUS_OK) {
+        pool_finish(to);
+        return s;
+    }
+    for (uint32_t id = 0; id < from->fresh; id += slab_items(from)) {
+        uint32_t slab = id >> from->slab_shift, left = from->fresh - id;
+        memcpy(to->slabs[slab], from->slabs[slab],
+               (left < slab_items(from) ? left : slab_items(from)) * from->item_bytes);
+    }
+    to->fresh = from->fresh;
+    to->free_head = from->free_head;
+    to->count = from->count;
+    return STATUS_OK;
+}
+
 size_t pool_bytes(const pool *p)
 {
     size_t bytes = 0;

@@ -47,6 +47,8 @@ STATUS_CHECKED status pool_take(pool *p, uint32_t *id_out);
 void pool_give(pool *p, uint32_t id);
 /* Everything back at once; slabs stay. */
 void pool_clear(pool *p);
+/* to (uninitialised) becomes a duplicate of from, ids and all. STATUS_NO_MEMORY leaves nothing. */
+STATUS_CHECKED status pool_copy(pool *to, const pool *from);
 
 /* Somebody's own notes on a pool's items, kept beside it: grows *array, of *room items of item_bytes, until every id
    that was ever taken has one; new ones are zero. STATUS_NO_MEMORY leaves the array as it was. The caller frees it. */

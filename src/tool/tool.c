@@ -2,6 +2,7 @@
 #include "tool/tool.h"
 
 #include "clay/apron.h"
+#include "clay/capacity.h"
 #include "tool/action_rows.h"
 #include "tool/census.h"
 #include "tool/walk.h"
@@ -12,61 +13,109 @@
 typedef struct tool_work {
     uint32_t id;        /* POOL_NONE: not stored yet */
     bool is_dirtied;
-    brick_page *page;   /* in scratch, or NULL: the brick's own */
+    uint32_t page_id; /* of the page it is acted on, to be the brick's next; POOL_NONE: the brick's own */
     action_rows_brick rows;
 } tool_work;
 
 status tool_scratch_init(tool_scratch *s, uint32_t bricks)
 {
     memset(s, 0, sizeof *s);
-    status outcome = pool_init(&s->works, sizeof(tool_work), bricks);
-    if (outcome == STATUS_OK)
-        outcome = pool_init(&s->pages, sizeof(brick_page), bricks);
-    if (outcome != STATUS_OK)
-        tool_scratch_finish(s);
-    return outcome;
+    return pool_init(&s->works, sizeof(tool_work), bricks);
 }
 
-void tool_scratch_finish(tool_scratch *s)
-{
-    pool_finish(&s->works);
-    pool_finish(&s->pages);
-}
+void tool_scratch_finish(tool_scratch *s) { pool_finish(&s->works); }
 
 static tool_work *work_at(const tool_scratch *s, uint32_t n) { return (tool_work *)pool_at(&s->works, n); }
 
-/* Does the action have to see the brick as it was while others are written, or may it still come to nothing? */
+/* Has the brick's page to stay as it is, for others or for its neighbours' sake, or may the dab come to nothing? */
 static bool needs_page(const action_setting *set, const clay *c, uint32_t id)
 {
-    return id == POOL_NONE || action_reads_neighbours(set->kind) ||
-           (c->changes.recording && clay_brick(c, id)->image == POOL_NONE);
+    return id == POOL_NONE || action_reads_neighbours(set->kind) || clay_page_is_kept(c, id);
 }
 
-static status work_add(const action_setting *set, const clay *c, key at, uint32_t id, tool_scratch *scratch)
+static status work_add(const action_setting *set, clay *c, key at, uint32_t id, tool_scratch *scratch)
 {
-    uint32_t n, page;
+    uint32_t n;
     status s = pool_take(&scratch->works, &n);
     if (s != STATUS_OK)
         return s == STATUS_POOL_FULL ? STATUS_TOO_LARGE : s;
     tool_work *work = work_at(scratch, n);
     work->id = id;
-    work->page = NULL;
+    work->page_id = POOL_NONE;
     work->rows.at = at;
-    if (needs_page(set, c, id)) {
-        s = pool_take(&scratch->pages, &page);
-        if (s != STATUS_OK)
-            return s;
-        work->page = (brick_page *)pool_at(&scratch->pages, page);
-    }
-    return STATUS_OK;
+    return needs_page(set, c, id) ? pages_take(&c->pages, &work->page_id) : STATUS_OK;
 }
 
-/* Which bricks the tool's box touches; where there is no clay and none can come to be, only if all are wanted. */
-static status gather(const action_setting *set, const walk *w, const clay *c, tool_scratch *scratch, bool all)
+static void asides_give(clay *c, const tool_scratch *scratch)
 {
-    pool_clear(&scratch->works);
-    pool_clear(&scratch->pages);
+    for (uint32_t n = 0; n < scratch->works.count; n++)
+        if (work_at(scratch, n)->page_id != POOL_NONE)
+            pages_give(&c->pages, work_at(scratch, n)->page_id);
+}
+
+/* Which of the bricks that are not stored are wanted. */
+typedef enum air {
+    AIR_NONE,
+    AIR_RIM, /* those that may touch a stored one: smoothing spreads clay no further */
+    AIR_ALL,
+} air;
+
+static air air_wanted(const action_setting *set, bool counting)
+{
+    if (counting) /* the paper counts what nothing can come of as well */
+        return AIR_ALL;
+    return set->kind == ACTION_SMOOTH ? AIR_RIM : action_makes_clay(set->kind) ? AIR_ALL : AIR_NONE;
+}
+
+/* What lies beyond the box is not looked at: on its faces, any brick may touch a stored one. */
+static bool is_on_face(box b, key at)
+{
+    return at.i == b.min.i || at.i == b.max.i || at.j == b.min.j || at.j == b.max.j || at.k == b.min.k ||
+           at.k == b.max.k;
+}
+
+typedef struct rim {
+    uint64_t seen[CAPACITY_DAB_BRICKS / 64]; /* a bit a brick of the box */
+} rim;
+
+static void rim_begin(rim *r, box in)
+{
+    const int64_t bricks =
+        (int64_t)(in.max.i - in.min.i + 1) * (in.max.j - in.min.j + 1) * (in.max.k - in.min.k + 1);
+    memset(r->seen, 0, bricks > 0 ? (size_t)(bricks + 63) / 64 * sizeof r->seen[0] : 0);
+}
+
+/* Is this its first time? */
+static bool rim_see(rim *r, box in, key at)
+{
+    const int64_t row = (int64_t)(at.i - in.min.i) * (in.max.j - in.min.j + 1) + at.j - in.min.j;
+    const int64_t place = row * (in.max.k - in.min.k + 1) + at.k - in.min.k;
+    const uint64_t bit = (uint64_t)1 << (place & 63), was = r->seen[place >> 6];
+    r->seen[place >> 6] = was | bit;
+    return (was & bit) == 0;
+}
+
+static status rim_add(rim *r, const action_setting *set, const walk *w, clay *c, const brick *b, tool_scratch *scratch)
+{
+    status s = STATUS_OK;
+    for (int n = 0; n < BRICK_NEIGHBOURS && s == STATUS_OK; n++) {
+        const key at = brick_neighbour_key(b->at, n);
+        if (b->neighbour[n] == POOL_NONE && n != BRICK_SELF && box_contains(w->reached, at) &&
+            !is_on_face(w->reached, at) && rim_see(r, w->reached, at) && walk_reaches(w, at))
+            s = work_add(set, c, at, POOL_NONE, scratch);
+    }
+    return s;
+}
+
+/* Which bricks the tool's box touches. */
+static status gather(const action_setting *set, const walk *w, clay *c, tool_scratch *scratch, air wanted)
+{
+    rim r;
     key at;
+    status s = STATUS_OK;
+    pool_clear(&scratch->works);
+    if (wanted == AIR_RIM)
+        rim_begin(&r, w->reached);
     for (at.i = w->reached.min.i; at.i <= w->reached.max.i; at.i++)
         for (at.j = w->reached.min.j; at.j <= w->reached.max.j; at.j++) {
             avl_walk row; /* the stored bricks of a row follow each other in the tree */
@@ -74,20 +123,23 @@ static status gather(const action_setting *set, const walk *w, const clay *c, to
             uint32_t next_id;
             at.k = w->reached.min.k;
             bool more = avl_seek(&row, &c->tree, at, &next, &next_id);
-            for (; at.k <= w->reached.max.k; at.k++) {
+            for (; at.k <= w->reached.max.k && s == STATUS_OK; at.k++) {
                 uint32_t id = POOL_NONE;
                 if (more && key_equal(next, at)) {
                     id = next_id;
                     more = avl_next(&row, &next, &next_id);
+                    if (wanted == AIR_RIM)
+                        s = rim_add(&r, set, w, c, clay_brick(c, id), scratch);
                 }
-                if (!walk_reaches(w, at) || (id == POOL_NONE && !all && !action_makes_clay(set->kind)))
-                    continue;
-                status s = work_add(set, c, at, id, scratch);
-                if (s != STATUS_OK)
-                    return s;
+                bool is_wanted = id != POOL_NONE || wanted == AIR_ALL ||
+                                 (wanted == AIR_RIM && is_on_face(w->reached, at));
+                if (s == STATUS_OK && is_wanted && walk_reaches(w, at))
+                    s = work_add(set, c, at, id, scratch);
             }
+            if (s != STATUS_OK)
+                return s;
         }
-    return STATUS_OK;
+    return s;
 }
 
 /* Clay that smooth or stamp made out of nothing takes the colour of the clay round it. */
@@ -106,21 +158,21 @@ static void colour_fresh(const action_setting *set, const clay *c, const uint32_
         }
 }
 
-/* What the brick becomes, on its own page or in scratch. Reads the clay, and writes none of it but that page. */
+/* What the brick becomes, on its own page or on its next. Reads the clay, and writes none of it but that page. */
 static void act(const action_rows_dab *dab, const clay *c, tool_work *work)
 {
     const brick *b = work->id == POOL_NONE ? NULL : clay_brick(c, work->id);
     float apron[APRON_CORNERS_MAX], mean[BRICK_CORNERS];
     uint32_t ids[BRICK_NEIGHBOURS];
     bool near = action_reads_neighbours(dab->set->kind);
-    work->rows.page = work->page ? work->page : b->page;
+    work->rows.page = work->page_id != POOL_NONE ? pages_at(&c->pages, work->page_id) : b->page;
     work->rows.mean = dab->set->kind == ACTION_SMOOTH ? mean : NULL;
     work->rows.now.inside = b ? b->inside : (brick_mask){{0}};
     work->rows.now.stored = b ? b->stored : 0;
-    if (work->page && b)
-        *work->page = *b->page;
-    else if (work->page)
-        memset(work->page, 0, sizeof *work->page);
+    if (work->page_id != POOL_NONE && b)
+        *work->rows.page = *b->page;
+    else if (!b)
+        memset(work->rows.page, 0, sizeof *work->rows.page);
     if (near) {
         clay_neighbours(c, work->rows.at, ids);
         apron_gather(c, ids, 8, apron, NULL);
@@ -132,12 +184,12 @@ static void act(const action_rows_dab *dab, const clay *c, tool_work *work)
         colour_fresh(dab->set, c, ids, apron, &work->rows);
 }
 
-/* The bricks in scratch, or those where they lie. */
+/* The bricks that get a page, or those where they lie. */
 typedef struct act_share {
     const action_rows_dab *dab;
     const clay *c;
     const tool_scratch *scratch;
-    bool in_scratch;
+    bool aside;
 } act_share;
 
 static void act_job(void *on, uint32_t hand, uint32_t hands)
@@ -145,49 +197,49 @@ static void act_job(void *on, uint32_t hand, uint32_t hands)
     const act_share *share = (const act_share *)on;
     for (uint32_t n = 0; n < share->scratch->works.count; n++) {
         tool_work *work = work_at(share->scratch, n);
-        if (crew_hand_of(work->rows.at, hands) == hand && (work->page != NULL) == share->in_scratch)
+        if (crew_hand_of(work->rows.at, hands) == hand && (work->page_id != POOL_NONE) == share->aside)
             act(share->dab, share->c, work);
     }
 }
 
-static void act_all(const action_rows_dab *dab, const clay *c, const tool_scratch *scratch, bool in_scratch)
+static void act_all(const action_rows_dab *dab, const clay *c, const tool_scratch *scratch, bool aside)
 {
-    act_share share = {dab, c, scratch, in_scratch};
+    act_share share = {dab, c, scratch, aside};
     crew_run(c->crew, scratch->works.count, act_job, &share);
 }
 
 /* A new brick is made only for clay. Without it, what the tool passed is at most marked. */
 static bool stays_absent(const tool_work *work) { return work->id == POOL_NONE && work->rows.now.stored == 0; }
 
-/* What was acted on in scratch is known; of the others, all are taken for dirtied. */
+/* What was acted on aside is known; of the others, all are taken for dirtied. */
 static status reserve(clay *c, const tool_scratch *scratch)
 {
-    clay_need need = {0, 0, 0};
+    clay_need need = {0, 0, 0, 0};
     for (uint32_t n = 0; n < scratch->works.count; n++) {
         const tool_work *work = work_at(scratch, n);
-        if (!work->page || work->is_dirtied)
-            clay_need_add(c, &need, work->rows.at, work->id, !stays_absent(work));
+        if (work->page_id == POOL_NONE)
+            clay_need_add(c, &need, work->rows.at, work->id, CLAY_OPEN);
+        else if (work->is_dirtied)
+            clay_need_add(c, &need, work->rows.at, work->id, stays_absent(work) ? CLAY_MARK : CLAY_TURN);
     }
     return clay_reserve(c, &need);
 }
 
-/* Room was reserved: what is opened here cannot be refused. */
-static void settle(clay *c, tool_work *work)
+/* Room was reserved: nothing is refused here. Marks in the air change nothing: they are made to be counted. */
+static void settle(clay *c, tool_work *work, bool counting)
 {
     status s = STATUS_OK;
-    if (!work->is_dirtied)
-        return;
-    if (stays_absent(work)) {
-        s = dirt_mark(&c->dirty, work->rows.at, &work->rows.now.dirtied);
-        assert(s == STATUS_OK);
-        return;
+    if (work->is_dirtied && stays_absent(work)) {
+        if (counting)
+            s = dirt_mark(&c->dirty, work->rows.at, &work->rows.now.dirtied);
+    } else if (work->is_dirtied) {
+        if (work->page_id != POOL_NONE)
+            s = clay_brick_turn(c, work->rows.at, &work->id, work->page_id);
+        work->page_id = POOL_NONE;
+        clay_brick_settle(c, work->id, &work->rows.now);
     }
-    if (work->page) {
-        s = clay_brick_open(c, work->rows.at, &work->id);
-        assert(s == STATUS_OK);
-        *clay_brick(c, work->id)->page = *work->page;
-    }
-    clay_brick_settle(c, work->id, &work->rows.now);
+    assert(s == STATUS_OK);
+    (void)s;
 }
 
 status tool_apply(const tool *t, const tool_dab *d, clay *c, tool_scratch *scratch, tool_counts *counts_out)
@@ -202,16 +254,19 @@ status tool_apply(const tool *t, const tool_dab *d, clay *c, tool_scratch *scrat
         return s;
     const action_setting set = {t->kind, t->rgba, (float)d->amount, &t->def, d->number};
     const action_rows_dab dab = action_rows_begin(&set, &t->form, &w);
-    s = gather(&set, &w, c, scratch, counts_out != NULL);
+    s = gather(&set, &w, c, scratch, air_wanted(&set, counts_out != NULL));
+    if (s == STATUS_OK) {
+        act_all(&dab, c, scratch, true);
+        s = reserve(c, scratch);
+    }
+    if (s == STATUS_OK) {
+        act_all(&dab, c, scratch, false);
+        for (uint32_t n = 0; n < scratch->works.count; n++)
+            settle(c, work_at(scratch, n), counts_out != NULL);
+    }
+    asides_give(c, scratch);
     if (s != STATUS_OK)
         return s;
-    act_all(&dab, c, scratch, true);
-    s = reserve(c, scratch);
-    if (s != STATUS_OK)
-        return s;
-    act_all(&dab, c, scratch, false);
-    for (uint32_t n = 0; n < scratch->works.count; n++)
-        settle(c, work_at(scratch, n));
     clay_prune(c);
     if (counts_out)
         *counts_out = census_take(&t->form, &set, &w);

@@ -51,7 +51,6 @@ typedef struct tool_counts {
 
 typedef struct tool_scratch {
     pool works; /* one a brick that the tool's box touches */
-    pool pages; /* for those that are not acted on where they lie */
 } tool_scratch;
 
 STATUS_CHECKED status tool_scratch_init(tool_scratch *s, uint32_t bricks);

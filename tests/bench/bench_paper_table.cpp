@@ -232,7 +232,7 @@ million_result million_measure(bench_rig &rig, const std::vector<bench_object_da
 
 double clay_bytes(const clay &c)
 {
-    return static_cast<double>(pool_bytes(&c.bricks) + pool_bytes(&c.pages) + pool_bytes(&c.tree.nodes));
+    return static_cast<double>(pool_bytes(&c.bricks) + pool_bytes(&c.pages.of) + pool_bytes(&c.tree.nodes));
 }
 
 double surface_bytes(const surface &s)

@@ -71,7 +71,7 @@ tool bench_rig::tool_of(const bench_object_dab &d) const
 
 double bench_rig::clay_bytes() const
 {
-    return static_cast<double>(pool_bytes(&field_clay.bricks) + pool_bytes(&field_clay.pages) +
+    return static_cast<double>(pool_bytes(&field_clay.bricks) + pool_bytes(&field_clay.pages.of) +
                                pool_bytes(&field_clay.tree.nodes));
 }
 

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: after any sequence of writes, whole bricks, changes ended and changes reverted, clay is what a sorted map of
- *       corners is.
+ *       corners is; and a frozen clay is what the map was.
  * Method: thousands of seeded steps on both; reads compared at every step, everything (corners, invariants, box, digest
  *         against a fresh copy) at intervals. */
+#include "clay/freeze.h"
+
 #include "tests/property/plain_clay.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +20,8 @@ struct pair {
     std::optional<plain_clay> before; /* while a change is recorded */
     uint64_t digest_before;
     int reach;
+    freeze frozen[2];
+    std::optional<plain_clay> when_frozen[2];
 };
 
 float any_potential(seeded &chance)
@@ -65,6 +69,35 @@ void write_bricks(pair &x, seeded &chance)
     clay_prune(&x.c);
 }
 
+/* Full of one colour, of few: such bricks share pages. */
+void fill_brick(pair &x, seeded &chance)
+{
+    static const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    const key at = key_brick(seeded_key(chance, -x.reach, x.reach));
+    const uint32_t rgba = static_cast<uint32_t>(seeded_int(chance, 1, 3));
+    uint32_t id;
+    ASSERT_EQ(clay_brick_open(&x.c, at, &id), STATUS_OK);
+    for (int slot = 0; slot < BRICK_CORNERS; slot++) {
+        clay_brick(&x.c, id)->page->potential[slot] = POTENTIAL_MAX;
+        clay_brick(&x.c, id)->page->rgba[slot] = rgba;
+        plain_clay_write(x.p, key_add(key_of_brick(at), slot >> 6, slot >> 3 & 7, slot & 7), POTENTIAL_MAX, rgba);
+    }
+    ASSERT_EQ(clay_brick_close(&x.c, id, &all), STATUS_OK);
+}
+
+void freeze_or_end(pair &x, seeded &chance)
+{
+    const int64_t n = seeded_int(chance, 0, 1);
+    if (!x.when_frozen[n]) {
+        ASSERT_EQ(freeze_begin(&x.frozen[n], &x.c), STATUS_OK);
+        x.when_frozen[n] = x.p;
+        return;
+    }
+    ASSERT_EQ(plain_clay_difference(*x.when_frozen[n], &x.frozen[n].still), "");
+    freeze_end(&x.frozen[n]);
+    x.when_frozen[n].reset();
+}
+
 void begin_or_end(pair &x, seeded &chance)
 {
     if (!x.before) {
@@ -106,8 +139,12 @@ void run(uint64_t seed, int reach, int steps)
     ASSERT_EQ(clay_init(&x.c, 20000), STATUS_OK);
     for (int n = 0; n < steps && !testing::Test::HasFatalFailure(); n++) {
         const int64_t what = seeded_int(chance, 0, 99);
-        if (what < 90)
+        if (what < 88)
             write_one(x, chance);
+        else if (what < 90)
+            fill_brick(x, chance);
+        else if (what < 91)
+            freeze_or_end(x, chance);
         else if (what < 98)
             write_bricks(x, chance);
         else
@@ -122,6 +159,10 @@ void run(uint64_t seed, int reach, int steps)
             expect_same(x);
     }
     expect_same(x);
+    for (int n = 0; n < 2; n++)
+        if (x.when_frozen[n])
+            freeze_end(&x.frozen[n]);
+    ASSERT_TRUE(clay_is_valid(&x.c));
     clay_finish(&x.c);
 }
 

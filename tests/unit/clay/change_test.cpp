@@ -129,10 +129,10 @@ TEST_F(clay_change, keeps_the_first_state_only)
     ASSERT_EQ(change_count(&c.changes), 2u);
     const change_image *first = change_at(&c.changes, 0), *second = change_at(&c.changes, 1);
     EXPECT_TRUE(key_equal(first->at, {0, 0, 0}));
-    EXPECT_EQ(std::memcmp(&first->page, &page, sizeof page), 0);
+    EXPECT_EQ(std::memcmp(clay_image_page(&c, 0), &page, sizeof page), 0);
     EXPECT_TRUE(key_equal(second->at, {11, 0, 0}));
     const brick_page none = {};
-    EXPECT_EQ(std::memcmp(&second->page, &none, sizeof none), 0) << "a brick that was not is all zero";
+    EXPECT_EQ(std::memcmp(clay_image_page(&c, 1), &none, sizeof none), 0) << "a brick that was not is all zero";
     clay_change_revert(&c);
 }
 
@@ -168,16 +168,17 @@ TEST_F(clay_change, begun_twice_is_our_bug)
 TEST(change_keep, answers_the_same_image_again)
 {
     change c;
+    pages none = {};
     ASSERT_EQ(change_init(&c, 2), STATUS_OK);
     uint32_t a, b;
-    ASSERT_EQ(change_keep(&c, {1, 2, 3}, nullptr, &a), STATUS_OK);
-    ASSERT_EQ(change_keep(&c, {1, 2, 3}, nullptr, &b), STATUS_OK);
+    ASSERT_EQ(change_keep(&c, &none, {1, 2, 3}, nullptr, &a), STATUS_OK);
+    ASSERT_EQ(change_keep(&c, &none, {1, 2, 3}, nullptr, &b), STATUS_OK);
     EXPECT_EQ(a, b);
-    ASSERT_EQ(change_keep(&c, {1, 2, 4}, nullptr, &b), STATUS_OK);
+    ASSERT_EQ(change_keep(&c, &none, {1, 2, 4}, nullptr, &b), STATUS_OK);
     EXPECT_NE(a, b);
-    EXPECT_EQ(change_keep(&c, {1, 2, 5}, nullptr, &b), STATUS_POOL_FULL);
+    EXPECT_EQ(change_keep(&c, &none, {1, 2, 5}, nullptr, &b), STATUS_POOL_FULL);
     EXPECT_EQ(change_count(&c), 2u);
-    EXPECT_EQ(change_keep(&c, {1, 2, 3}, nullptr, &b), STATUS_OK) << "full, but this one is there";
+    EXPECT_EQ(change_keep(&c, &none, {1, 2, 3}, nullptr, &b), STATUS_OK) << "full, but this one is there";
     change_finish(&c);
 }
 

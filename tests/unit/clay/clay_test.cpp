@@ -435,7 +435,7 @@ TEST_F(clay_piece, settled_empty_bricks_are_pruned)
 
 size_t bytes_held(const clay &c)
 {
-    return pool_bytes(&c.bricks) + pool_bytes(&c.pages) + pool_bytes(&c.tree.nodes) + pool_bytes(&c.changes.images) +
+    return pool_bytes(&c.bricks) + pool_bytes(&c.pages.of) + pool_bytes(&c.tree.nodes) + pool_bytes(&c.changes.images) +
            pool_bytes(&c.changes.index.nodes) + pool_bytes(&c.dirty.entries) + pool_bytes(&c.dirty.absent.nodes);
 }
 
@@ -445,12 +445,13 @@ TEST_F(clay_piece, what_was_reserved_is_written_without_asking_the_machine)
     write({-800, 0, 0}, 1, 9);
     dirt_clear(&c.dirty);
     clay_change_begin(&c);
-    clay_need need = {0, 0, 0};
+    clay_need need = {0, 0, 0, 0};
     for (int n = 0; n < MANY; n++)
-        clay_need_add(&c, &need, {n, 0, 0}, POOL_NONE, true);
-    clay_need_add(&c, &need, {-100, 0, 0}, clay_find(&c, {-100, 0, 0}), true);
-    clay_need_add(&c, &need, {-1, 0, 0}, POOL_NONE, false);
+        clay_need_add(&c, &need, {n, 0, 0}, POOL_NONE, CLAY_OPEN);
+    clay_need_add(&c, &need, {-100, 0, 0}, clay_find(&c, {-100, 0, 0}), CLAY_OPEN);
+    clay_need_add(&c, &need, {-1, 0, 0}, POOL_NONE, CLAY_MARK);
     EXPECT_EQ(need.bricks, uint64_t{MANY});
+    EXPECT_EQ(need.pages, uint64_t{MANY + 1});
     EXPECT_EQ(need.images, uint64_t{MANY + 1});
     EXPECT_EQ(need.marks, uint64_t{MANY + 2});
     ASSERT_EQ(clay_reserve(&c, &need), STATUS_OK);
@@ -472,11 +473,12 @@ TEST_F(clay_piece, reserving_too_much_is_refused_and_changes_nothing)
 {
     write({0, 0, 0}, 1, 9);
     const size_t held = bytes_held(c);
-    for (const clay_need &need : {clay_need{1000, 0, 0}, clay_need{0, 1001, 0}, clay_need{0, 0, 3000}})
+    for (const clay_need &need : {clay_need{1000, 0, 0, 0}, clay_need{0, 200000, 0, 0}, clay_need{0, 0, 1001, 0},
+                                  clay_need{0, 0, 0, 3000}})
         EXPECT_EQ(clay_reserve(&c, &need), STATUS_POOL_FULL);
     EXPECT_EQ(bytes_held(c), held);
     EXPECT_EQ(clay_brick_count(&c), 1u);
-    const clay_need last = {999, 1000, 0};
+    const clay_need last = {999, 1999, 1000, 0};
     EXPECT_EQ(clay_reserve(&c, &last), STATUS_OK);
 }
 

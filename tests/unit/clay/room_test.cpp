@@ -129,18 +129,18 @@ TEST(clay_room, need_counts_what_is_there_already)
     dirt_clear(&c.dirty);
     clay_change_begin(&c);
     ASSERT_EQ(clay_write(&c, {8, 0, 0}, 1, 9), STATUS_OK);
-    clay_need need = {0, 0, 0};
-    clay_need_add(&c, &need, {1, 0, 0}, clay_find(&c, {1, 0, 0}), true); /* stored, imaged, marked */
+    clay_need need = {0, 0, 0, 0};
+    clay_need_add(&c, &need, {1, 0, 0}, clay_find(&c, {1, 0, 0}), CLAY_OPEN); /* stored, imaged, marked */
     EXPECT_EQ(need.bricks + need.images + need.marks, 0u);
-    clay_need_add(&c, &need, {0, 0, 0}, clay_find(&c, {0, 0, 0}), true); /* stored only */
+    clay_need_add(&c, &need, {0, 0, 0}, clay_find(&c, {0, 0, 0}), CLAY_OPEN); /* stored only */
     EXPECT_EQ(need.bricks, 0u);
     EXPECT_EQ(need.images, 1u);
     EXPECT_EQ(need.marks, 1u);
-    clay_need_add(&c, &need, {2, 0, 0}, clay_find(&c, {2, 0, 0}), false); /* the air, only passed */
+    clay_need_add(&c, &need, {2, 0, 0}, clay_find(&c, {2, 0, 0}), CLAY_MARK); /* the air, only passed */
     EXPECT_EQ(need.bricks, 0u);
     EXPECT_EQ(need.images, 1u);
     EXPECT_EQ(need.marks, 2u);
-    clay_need_add(&c, &need, {2, 0, 0}, clay_find(&c, {2, 0, 0}), true);
+    clay_need_add(&c, &need, {2, 0, 0}, clay_find(&c, {2, 0, 0}), CLAY_OPEN);
     EXPECT_EQ(need.bricks, 1u);
     EXPECT_EQ(need.images, 2u);
     EXPECT_EQ(need.marks, 3u);
@@ -155,7 +155,7 @@ TEST(clay_room, ratios_are_capacitys)
     EXPECT_EQ(c.bricks.limit, CAPACITY_BRICKS);
     EXPECT_EQ(c.changes.images.limit, CAPACITY_IMAGES);
     EXPECT_EQ(c.dirty.entries.limit, CAPACITY_DIRT);
-    EXPECT_LT(pool_bytes(&c.pages) + pool_bytes(&c.bricks), 1u << 20) << "limits cost nothing until they are used";
+    EXPECT_LT(pool_bytes(&c.pages.of) + pool_bytes(&c.bricks), 1u << 20) << "limits cost nothing until they are used";
     clay_finish(&c);
 }
 

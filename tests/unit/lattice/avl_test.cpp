@@ -176,6 +176,20 @@ TEST_F(avl_tree, seek_orders_by_i_then_j_then_k)
             }
 }
 
+TEST_F(avl_tree, duplicate_is_a_tree_of_its_own)
+{
+    insert({5, 3, 8, 1, 4, 7, 9});
+    avl copy;
+    ASSERT_EQ(avl_copy(&copy, &t), STATUS_OK);
+    EXPECT_EQ(avl_count(&copy), 7u);
+    EXPECT_NE(avl_remove(&copy, {5, -5, 0}), POOL_NONE);
+    EXPECT_EQ(avl_find(&copy, {5, -5, 0}), POOL_NONE);
+    EXPECT_NE(avl_find(&t, {5, -5, 0}), POOL_NONE);
+    EXPECT_TRUE(avl_is_valid(&copy));
+    EXPECT_TRUE(avl_is_valid(&t));
+    avl_finish(&copy);
+}
+
 TEST_F(avl_tree, validator_sees_disorder)
 {
     insert({1, 2, 3});

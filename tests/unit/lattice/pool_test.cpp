@@ -261,6 +261,35 @@ TEST(pool, zeroed_can_be_finished)
     EXPECT_EQ(p.slabs, nullptr);
 }
 
+TEST(pool, duplicate_goes_on_where_the_first_one_stood)
+{
+    for (const uint32_t taken : {0u, 1u, 3u, 64u, 200u}) {
+        pool p, copy;
+        ASSERT_EQ(pool_init(&p, 4096, 200), STATUS_OK);
+        for (uint32_t n = 0; n < taken; n++) {
+            uint32_t id;
+            ASSERT_EQ(pool_take(&p, &id), STATUS_OK);
+            std::memset(pool_at(&p, id), static_cast<int>(id + 1), 4096);
+        }
+        for (uint32_t id = 1; id < taken; id += 2)
+            pool_give(&p, id);
+        ASSERT_EQ(pool_copy(&copy, &p), STATUS_OK);
+        EXPECT_EQ(copy.count, p.count);
+        for (uint32_t id = 0; id < taken; id += 2) {
+            EXPECT_NE(pool_at(&copy, id), pool_at(&p, id));
+            EXPECT_EQ(std::memcmp(pool_at(&copy, id), pool_at(&p, id), 4096), 0) << id;
+        }
+        while (pool_room(&p) > 0) {
+            uint32_t a, b;
+            ASSERT_EQ(pool_take(&p, &a), STATUS_OK);
+            ASSERT_EQ(pool_take(&copy, &b), STATUS_OK);
+            ASSERT_EQ(a, b);
+        }
+        pool_finish(&copy);
+        pool_finish(&p);
+    }
+}
+
 TEST(pool_death, foreign_ids_are_our_bug)
 {
     pool p;

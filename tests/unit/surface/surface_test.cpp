@@ -4,8 +4,10 @@
  * Method: small edits with known consequences, judged against surface_rebuild and mesh_oracle. */
 #include "surface/surface.h"
 
+#include "clay/freeze.h"
 #include "surface/mesh.h"
 #include "tests/property/mesh_oracle.h"
+#include "tests/property/plain_clay.h"
 #include "tests/unit/surface/sample_clay.h"
 
 #include <random>
@@ -355,6 +357,29 @@ TEST(surface, a_surface_that_never_was_can_be_finished)
     EXPECT_EQ(surface_slots(&s), 0u);
     EXPECT_EQ(surface_digest(&s), 0u);
     surface_finish(&s);
+}
+
+TEST(surface_of_a_frozen_clay, is_the_one_that_was)
+{
+    clay c;
+    freeze f;
+    surface was = {}, still = {};
+    seeded chance = {1};
+    ASSERT_EQ(clay_init(&c, 1000), STATUS_OK);
+    ASSERT_EQ(surface_init(&was, 2000), STATUS_OK);
+    ASSERT_EQ(surface_init(&still, 2000), STATUS_OK);
+    ASSERT_EQ(plain_clay_ball(&c, chance, {0, 0, 0}, 20, 1), STATUS_OK);
+    ASSERT_EQ(surface_rebuild(&was, &c, nullptr), STATUS_OK);
+    ASSERT_EQ(freeze_begin(&f, &c), STATUS_OK);
+    for (const auto &[at, corner] : plain_clay_of(&c))
+        ASSERT_EQ(clay_write(&c, plain_clay_untuple(at), 2.5f, 77), STATUS_OK);
+    ASSERT_EQ(surface_rebuild(&still, &f.still, nullptr), STATUS_OK);
+    EXPECT_EQ(surface_digest(&still), surface_digest(&was));
+    EXPECT_GT(was.triangles, 1000u);
+    freeze_end(&f);
+    surface_finish(&still);
+    surface_finish(&was);
+    clay_finish(&c);
 }
 
 } // namespace

@@ -17,14 +17,15 @@ struct format_row {
     exchange_format format;
     std::string_view ending; /* lower case */
     mesh_writer write;       /* null: not a mesh */
+    double vertex_bytes, triangle_bytes; /* about as many as the file will have: for progress */
 };
 
 constexpr format_row formats[] = {
-    {EXCHANGE_GLAISE, ".glaise", nullptr},
-    {EXCHANGE_STL, ".stl", stl_write},
-    {EXCHANGE_PLY, ".ply", ply_write},
-    {EXCHANGE_OBJ, ".obj", obj_write},
-    {EXCHANGE_INVENTOR, ".iv", inventor_write},
+    {EXCHANGE_GLAISE, ".glaise", nullptr, 0, 0},
+    {EXCHANGE_STL, ".stl", stl_write, 0, 50},
+    {EXCHANGE_PLY, ".ply", ply_write, 28, 13},
+    {EXCHANGE_OBJ, ".obj", obj_write, 90, 45},
+    {EXCHANGE_INVENTOR, ".iv", inventor_write, 100, 26},
 };
 
 std::string_view last_part(std::string_view path)
@@ -89,6 +90,29 @@ exchange_outcome reading_outcome(status state, const checkpoint_trouble &trouble
     return {state, text};
 }
 
+/* A sink that hears how much went through it. */
+struct metered_sink {
+    checkpoint_sink sink;
+    void *self;
+    const std::function<void(double)> &progress;
+    double expected, sent = 0;
+};
+
+status metered_put(void *self, const void *bytes, size_t n)
+{
+    metered_sink &m = *static_cast<metered_sink *>(self);
+    m.sent += static_cast<double>(n);
+    if (m.progress)
+        m.progress(m.sent < m.expected ? m.sent / m.expected : 1);
+    return m.sink(m.self, bytes, n);
+}
+
+double native_bytes(const clay &c)
+{
+    constexpr double a_header = CHECKPOINT_HEADER_BYTES, a_brick = 88, a_corner = 8; /* checkpoint.h */
+    return a_header + a_brick * clay_brick_count(&c) + a_corner * static_cast<double>(c.corners);
+}
+
 struct clay_finisher {
     void operator()(clay *c) const
     {
@@ -147,19 +171,25 @@ std::string exchange_endings()
     return all;
 }
 
-exchange_outcome exchange_write(const sculpture &s, std::string_view file_name, checkpoint_sink sink, void *self)
+exchange_outcome exchange_write(still &s, std::string_view file_name, checkpoint_sink sink, void *self,
+                                const std::function<void(double)> &progress)
 {
-    if (exchange_format_of(file_name) == EXCHANGE_GLAISE)
-        return outcome_of(sculpture_write(&s, sink, self));
-    if (exchange_format_of(file_name) == EXCHANGE_UNKNOWN)
+    const format_row *row = row_of(file_name);
+    if (row == nullptr)
         return unknown_ending(file_name);
+    if (row->write == nullptr) {
+        metered_sink metered = {sink, self, progress, native_bytes(s.field.still)};
+        return outcome_of(still_write(&s, metered_put, &metered));
+    }
     mesh m;
-    const status made = mesh_init(&m, &s.surface);
+    const status made = still_mesh(&s, &m);
     if (made == STATUS_TOO_LARGE)
         return {made, "the surface has more vertices than a mesh file can number"};
     if (made != STATUS_OK)
         return outcome_of(made);
-    const exchange_outcome written = exchange_write_mesh(m, s.step_mm, file_name, sink, self);
+    metered_sink metered = {sink, self, progress,
+                            row->vertex_bytes * m.vertex_count + row->triangle_bytes * m.triangle_count};
+    const exchange_outcome written = exchange_write_mesh(m, s.step_mm, file_name, metered_put, &metered);
     mesh_finish(&m);
     return written;
 }

@@ -17,15 +17,17 @@
  *          stops, the text is "offset N: expected ..."; the caller, who knows it, puts the file's name before it.
  *          An unknown ending, and a mesh of an empty sculpture, are STATUS_BAD_PARAMETER before the first byte. The
  *          native file of an empty sculpture is written: it holds a step, and can be sculpted on.
- * Cost:    exchange_write waits for the sink. The frame path takes a mesh (mesh_init) and has exchange_write_mesh run
- *          elsewhere.
+ * Cost:    exchange_write makes a surface and waits for the sink: seconds for a large piece. The frame path takes a
+ *          still and has it run elsewhere (station/errand.h).
  * Source:  000 section 2.
  */
 #ifndef GLAISE_EXCHANGE_EXCHANGE_H
 #define GLAISE_EXCHANGE_EXCHANGE_H
 
 #include "exchange/mesh_file.h"
+#include "sculpture/still.h"
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -48,7 +50,9 @@ exchange_format exchange_format_of(std::string_view file_name);
 /* ".glaise .stl .ply .obj .iv" */
 std::string exchange_endings();
 
-exchange_outcome exchange_write(const sculpture &s, std::string_view file_name, checkpoint_sink sink, void *self);
+/* progress, where given, hears how far it is, 0..1, on the caller's thread. */
+exchange_outcome exchange_write(still &s, std::string_view file_name, checkpoint_sink sink, void *self,
+                                const std::function<void(double)> &progress = {});
 /* The same for a mesh taken earlier; .glaise needs the field and is refused. */
 exchange_outcome exchange_write_mesh(const mesh &m, double step_mm, std::string_view file_name, checkpoint_sink sink,
                                      void *self);

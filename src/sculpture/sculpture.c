@@ -225,12 +225,6 @@ static status replace_as_stroke(sculpture *s, const clay *with)
 
 status sculpture_clear(sculpture *s) { return replace_as_stroke(s, NULL); }
 
-status sculpture_write(const sculpture *s, checkpoint_sink sink, void *self)
-{
-    const checkpoint_facts facts = {.step_mm = s->step_mm, .dab = s->dab};
-    return checkpoint_write(&s->clay, &facts, sink, self);
-}
-
 status sculpture_read(sculpture *s, checkpoint_source source, void *self, checkpoint_trouble *trouble_out)
 {
     clay read;

@@ -84,9 +84,8 @@ STATUS_CHECKED status sculpture_duplicate(const sculpture *s, freeform *tool_out
 /* Empties the clay as one stroke, so that it can be undone. Not during a stroke. */
 STATUS_CHECKED status sculpture_clear(sculpture *s);
 
-/* Native file: the whole field. Reading replaces the clay whole as one stroke, or not at all; a step other than the
+/* Native file (still.h writes it): replaces the clay whole as one stroke, or not at all; a step other than the
    sculpture's is STATUS_BAD_PARAMETER unless the sculpture is empty and keeps no history (then it takes the step). */
-STATUS_CHECKED status sculpture_write(const sculpture *s, checkpoint_sink sink, void *self);
 STATUS_CHECKED status sculpture_read(sculpture *s, checkpoint_source source, void *self,
                                      checkpoint_trouble *trouble_out);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "station/command.h"
 
+#include "exchange/exchange.h"
 #include "sculpture/sculpture.h"
 
 #include <charconv>
@@ -163,6 +164,10 @@ std::vector<command_form> picture_forms()
          "picture",
          {{"FILE", COMMAND_NAME, 0, 0}},
          "a picture of this moment, where pictures are wanted"},
+        {COMMAND_EXPORT,
+         "export",
+         {{"FILE", COMMAND_NAME, 0, 0}},
+         "the piece as it is now as a file, where pictures are wanted; its ending says which format"},
     };
 }
 
@@ -269,6 +274,10 @@ bool whole_fits(const command &c, std::string *expected_out)
     int first = c.kind == COMMAND_ORBIT ? 3 : 0;
     if (turns && n[first] * n[first] + n[first + 1] * n[first + 1] + n[first + 2] * n[first + 2] < 1e-12) {
         *expected_out = "an axis AX AY AZ that is not zero";
+        return false;
+    }
+    if (c.kind == COMMAND_EXPORT && exchange_format_of(c.name) == EXCHANGE_UNKNOWN) {
+        *expected_out = "FILE, a name that ends in one of " + exchange_endings();
         return false;
     }
     if (c.kind == COMMAND_WORKSPACE && !(n[0] < n[3] && n[1] < n[4] && n[2] < n[5])) {

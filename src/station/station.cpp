@@ -51,7 +51,7 @@ struct station {
     snapshot shown;           /* all but the tool and the scene's shift */
     motion_vector centre{};   /* world point the eye looks at */
 
-    std::deque<std::string> pictures, messages;
+    std::deque<std::string> pictures, exports, messages;
     std::vector<command> recording;
 };
 
@@ -364,7 +364,8 @@ void do_picture(station *s, const command &c)
         v.box_hi = {n[3], n[4], n[5]};
         break;
     case COMMAND_WORKSPACE_SHOWN: v.box_shown = index == 1; break;
-    default: s->pictures.push_back(c.name); break; /* COMMAND_PICTURE */
+    case COMMAND_PICTURE: s->pictures.push_back(c.name); break;
+    default: s->exports.push_back(c.name); break; /* COMMAND_EXPORT */
     }
 }
 
@@ -491,5 +492,6 @@ static bool front_take(std::deque<std::string> *from, std::string *out)
 }
 
 bool station_picture_take(station *s, std::string *name_out) { return front_take(&s->pictures, name_out); }
+bool station_export_take(station *s, std::string *name_out) { return front_take(&s->exports, name_out); }
 bool station_message_take(station *s, std::string *text_out) { return front_take(&s->messages, text_out); }
 const std::vector<command> &station_recording(const station *s) { return s->recording; }

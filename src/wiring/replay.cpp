@@ -3,6 +3,8 @@
 
 #include "exchange/exchange.h"
 #include "station/crew_of_threads.h"
+#include "station/opening.h"
+#include "wiring/outbox.h"
 #include "wiring/playlist.h"
 #include "wiring/progress.h"
 #include "wiring/scratch_store.h"
@@ -64,6 +66,7 @@ struct performance {
     stage *scene = nullptr;
     bool scene_tried = false;
     statistics counts;
+    outbox sent;
     std::vector<std::string> written;
     int exit = 0;
 };
@@ -72,6 +75,24 @@ void trouble(performance *p, const std::string &text)
 {
     std::fprintf(stderr, "\nglaise: %s\n", text.c_str());
     p->exit = ARGUMENTS_EXIT_TROUBLE;
+}
+
+/* Looks up from time to time whether a long work is done; shows how far it is when it takes longer than a moment. */
+void await(const char *what, const std::function<bool()> &is_done, const std::function<double()> &part)
+{
+    constexpr int64_t moment_ns = 300000000;
+    const int64_t start_ns = clock_ns();
+    progress bar = progress_begin(what);
+    bool shown = false;
+    while (!is_done()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (clock_ns() - start_ns < moment_ns)
+            continue;
+        progress_show(&bar, part(), "", clock_ns());
+        shown = true;
+    }
+    if (shown)
+        progress_end(&bar, "");
 }
 
 /* The vectors and threads that were asked for. Without threads the caller works alone. */
@@ -99,7 +120,9 @@ bool performance_open(performance *p, double step_mm)
             return false;
         }
     }
-    status s = sculpture_open(p->piece.get(), &port, CAPACITY_BRICKS, static_cast<uint32_t>(a.ring), step_mm, &finding);
+    opening *reading = opening_begin(p->piece.get(), port, static_cast<uint32_t>(a.ring), step_mm);
+    await("opening", [reading] { return opening_is_done(reading); }, [reading] { return opening_part(reading); });
+    const status s = opening_end(reading, &finding);
     if (finding.text[0])
         std::fprintf(stderr, "glaise: %s: %s\n", a.store.c_str(), finding.text);
     if (s != STATUS_OK) {
@@ -144,10 +167,32 @@ void picture_take(performance *p, const std::string &path)
         trouble(p, path + ": " + text);
 }
 
+/* Files that are done; all of them, if waited for. */
+void collect(performance *p, bool wait)
+{
+    while (!p->sent.sent.empty()) {
+        if (wait) {
+            const std::string what = "writing " + p->sent.sent.front().file.path;
+            await(what.c_str(), [p] { return outbox_is_done(&p->sent); }, [p] { return outbox_part(&p->sent); });
+        }
+        const std::optional<outbox_file> file = outbox_take(&p->sent);
+        if (!file)
+            return;
+        if (file->trouble.empty())
+            p->written.push_back(file->path);
+        else
+            trouble(p, file->trouble);
+    }
+}
+
 /* What the station asks for or says. */
 void ask(performance *p)
 {
     std::string text;
+    while (station_export_take(p->desk, &text))
+        if (!p->wanted->pictures.empty())
+            outbox_send(&p->sent, p->piece.get(), (std::filesystem::path(p->wanted->pictures) / text).string());
+    collect(p, false);
     while (station_message_take(p->desk, &text))
         std::fprintf(stderr, "\nglaise: %s\n", text.c_str());
     while (station_picture_take(p->desk, &text))
@@ -196,18 +241,11 @@ void text_export(performance *p, const std::string &path, const std::string &byt
         trouble(p, text);
 }
 
-void piece_export(performance *p, const std::string &path)
+void pieces_export(performance *p)
 {
-    std::string text;
-    exchange_outcome outcome;
-    auto write = [&](checkpoint_sink sink, void *self) {
-        outcome = exchange_write(*p->piece, path, sink, self);
-        return outcome.state;
-    };
-    if (store_export(path, write, &text))
-        p->written.push_back(path);
-    else
-        trouble(p, outcome.text.empty() || outcome.state == STATUS_IO ? text : path + ": " + outcome.text);
+    for (const std::string &file : p->wanted->exports)
+        outbox_send(&p->sent, p->piece.get(), file);
+    collect(p, true);
 }
 
 void results_write(performance *p)
@@ -215,8 +253,7 @@ void results_write(performance *p)
     const arguments &a = *p->wanted;
     if (!a.picture.empty())
         picture_take(p, a.picture);
-    for (const std::string &file : a.exports)
-        piece_export(p, file);
+    pieces_export(p);
     if (!a.statistics.empty())
         text_export(p, a.statistics, statistics_json(p->counts, p->piece.get()));
     if (!a.record.empty())
@@ -225,6 +262,7 @@ void results_write(performance *p)
 
 void performance_close(performance *p)
 {
+    collect(p, true); /* they hold on to the piece */
     stage_close(p->scene);
     station_close(p->desk);
     if (p->open) {
@@ -328,8 +366,7 @@ int replay_export(const arguments &a)
     if (p.exit != 0)
         return p.exit;
     p.open = true;
-    for (const std::string &file : a.exports)
-        piece_export(&p, file);
+    pieces_export(&p);
     performance_close(&p);
     return p.exit;
 }

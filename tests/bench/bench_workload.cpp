@@ -9,9 +9,11 @@
  *   --radius R       only 4, 8, 16 or 32, and no other table
  *   --soak           only: a hundred thousand dabs, memory every ten thousand; exit code 1 when it grows
  *   --threads N      1; with 2 what the second thread brings is measured, and nothing else
+ *   --long           only: dabs while the piece is saved, exported, and another one opened
  *   --json FILE      the same numbers for programs */
 #include "bench_dabs.h"
 #include "bench_hands.h"
+#include "bench_long.h"
 #include "bench_machine.h"
 #include "bench_stroke.h"
 #include "bench_whole.h"
@@ -25,7 +27,7 @@
 namespace {
 
 struct options {
-    bool quick = false, soak = false;
+    bool quick = false, soak = false, long_work = false;
     double radius = 0;
     int threads = 1;
     std::string json;
@@ -36,7 +38,7 @@ struct options {
 {
     std::fprintf(stderr,
                  "bench_workload: %s\n"
-                 "usage: bench_workload [--quick] [--object 1M|20M] [--radius 4|8|16|32] [--soak] [--threads 1|2] "
+                 "usage: bench_workload [--quick] [--object 1M|20M] [--radius 4|8|16|32] [--soak] [--threads 1|2] [--long] "
                  "[--json FILE]\n",
                  what);
     std::exit(2);
@@ -56,6 +58,8 @@ options parse(int argc, char **argv)
             o.quick = true;
         } else if (word == "--soak") {
             o.soak = true;
+        } else if (word == "--long") {
+            o.long_work = true;
         } else if (word == "--object") {
             o.objects = {value()};
             if (o.objects[0] != "1M" && o.objects[0] != "20M")
@@ -103,6 +107,13 @@ void print_legend()
 
 void run(const options &o, bench_record &record, bool *flat)
 {
+    if (o.long_work) {
+        for (const std::string &name : o.objects) {
+            bench_scene scene(name);
+            bench_long_measure(scene, o.quick, record);
+        }
+        return;
+    }
     if (o.threads > 1) {
         for (const std::string &name : o.objects) {
             bench_scene scene(name);

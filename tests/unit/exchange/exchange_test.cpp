@@ -61,10 +61,19 @@ uint64_t fill_with_ball(sculpture &s, double radius)
     return stored;
 }
 
-bucket native_file_of(const sculpture &s)
+exchange_outcome write_out(sculpture &s, const std::string &name, bucket *b)
+{
+    still moment;
+    EXPECT_EQ(still_begin(&moment, &s), STATUS_OK);
+    exchange_outcome outcome = exchange_write(moment, name, bucket_put, b);
+    still_end(&moment);
+    return outcome;
+}
+
+bucket native_file_of(sculpture &s)
 {
     bucket b;
-    const exchange_outcome outcome = exchange_write(s, "owl.glaise", bucket_put, &b);
+    const exchange_outcome outcome = write_out(s, "owl.glaise", &b);
     EXPECT_EQ(outcome.state, STATUS_OK) << outcome.text;
     EXPECT_EQ(outcome.text, "");
     return b;
@@ -96,7 +105,7 @@ TEST(exchange, unknown_ending_lists_what_is_known)
     fill_with_ball(*s, 4);
     for (const char *name : {"/tmp/owl.3mf", "/tmp/owl"}) {
         bucket b;
-        const exchange_outcome outcome = exchange_write(*s, name, bucket_put, &b);
+        const exchange_outcome outcome = write_out(*s, name, &b);
         EXPECT_EQ(outcome.state, STATUS_BAD_PARAMETER);
         EXPECT_EQ(outcome.text.find("owl"), 0u) << outcome.text;
         for (const char *ending : {".glaise", ".stl", ".ply", ".obj", ".iv"})
@@ -104,8 +113,8 @@ TEST(exchange, unknown_ending_lists_what_is_known)
         EXPECT_EQ(b.bytes, "");
     }
     bucket b;
-    EXPECT_NE(exchange_write(*s, "owl.3mf", bucket_put, &b).text.find(".3mf"), std::string::npos);
-    EXPECT_NE(exchange_write(*s, "/a.b/owl", bucket_put, &b).text.find("without an ending"), std::string::npos);
+    EXPECT_NE(write_out(*s, "owl.3mf", &b).text.find(".3mf"), std::string::npos);
+    EXPECT_NE(write_out(*s, "/a.b/owl", &b).text.find("without an ending"), std::string::npos);
 }
 
 TEST(exchange, every_mesh_ending_writes_the_surface)
@@ -118,7 +127,7 @@ TEST(exchange, every_mesh_ending_writes_the_surface)
     EXPECT_NEAR(volume, 4.18879 * std::pow(7.3 * step_mm, 3), 0.03 * volume);
     for (const std::string ending : mesh_endings) {
         bucket b;
-        const exchange_outcome outcome = exchange_write(*s, "/tmp/owl" + ending, bucket_put, &b);
+        const exchange_outcome outcome = write_out(*s, "/tmp/owl" + ending, &b);
         EXPECT_EQ(outcome.state, STATUS_OK) << ending << outcome.text;
         EXPECT_EQ(outcome.text, "");
         const soup seen = read_mesh(ending, b.bytes);
@@ -141,7 +150,7 @@ TEST(exchange, mesh_taken_earlier_equals_the_sculptures)
     ASSERT_EQ(mesh_init(&m, &s->surface), STATUS_OK);
     for (const std::string ending : mesh_endings) {
         bucket direct, later;
-        EXPECT_EQ(exchange_write(*s, "owl" + ending, bucket_put, &direct).state, STATUS_OK);
+        EXPECT_EQ(write_out(*s, "owl" + ending, &direct).state, STATUS_OK);
         EXPECT_EQ(exchange_write_mesh(m, step_mm, "owl" + ending, bucket_put, &later).state, STATUS_OK);
         EXPECT_EQ(direct.bytes, later.bytes);
     }
@@ -159,7 +168,7 @@ TEST(exchange, empty_surface_is_refused_empty_clay_is_kept)
     const held_sculpture s = opened();
     for (const std::string ending : mesh_endings) {
         bucket b;
-        const exchange_outcome outcome = exchange_write(*s, "owl" + ending, bucket_put, &b);
+        const exchange_outcome outcome = write_out(*s, "owl" + ending, &b);
         EXPECT_EQ(outcome.state, STATUS_BAD_PARAMETER) << ending;
         EXPECT_NE(outcome.text.find("empty"), std::string::npos) << outcome.text;
         EXPECT_EQ(b.bytes, "");
@@ -176,11 +185,11 @@ TEST(exchange, failing_sink_is_told)
     fill_with_ball(*s, 5);
     for (const std::string ending : {".glaise", ".stl", ".ply", ".obj", ".iv"}) {
         bucket whole;
-        ASSERT_EQ(exchange_write(*s, "owl" + ending, bucket_put, &whole).state, STATUS_OK);
+        ASSERT_EQ(write_out(*s, "owl" + ending, &whole).state, STATUS_OK);
         for (size_t room : {size_t{0}, whole.bytes.size() / 2, whole.bytes.size() - 1}) {
             bucket b;
             b.room = room;
-            const exchange_outcome outcome = exchange_write(*s, "owl" + ending, bucket_put, &b);
+            const exchange_outcome outcome = write_out(*s, "owl" + ending, &b);
             EXPECT_EQ(outcome.state, STATUS_IO) << ending << room;
             EXPECT_EQ(outcome.text, status_text(STATUS_IO));
         }

@@ -3,7 +3,7 @@
  *       clay, surface and history as before; what was ended comes back by undo, redo and opening again.
  * Method: against the rooms behind the door used by hand; a byte store in memory that fails on demand; a clay so small
  *         that its surface does not fit. */
-#include "sculpture/sculpture.h"
+#include "sculpture/still.h"
 
 #include "tests/property/plain_clay.h"
 #include "tests/unit/history/memory_store.h"
@@ -406,6 +406,17 @@ status get(void *self, uint64_t offset, void *bytes, size_t n, size_t *got)
     return STATUS_OK;
 }
 
+status write_out_of(sculpture *s, paper *p)
+{
+    still moment;
+    status outcome = still_begin(&moment, s);
+    if (outcome != STATUS_OK)
+        return outcome;
+    outcome = still_write(&moment, put, p);
+    still_end(&moment);
+    return outcome;
+}
+
 TEST_F(sculpture_door, writes_and_reads_the_whole_field)
 {
     open(false, 4000, 0.5);
@@ -414,7 +425,7 @@ TEST_F(sculpture_door, writes_and_reads_the_whole_field)
     const uint64_t digest = sculpture_digest(s.get()), mesh = surface_digest(&s->surface);
     paper p;
     checkpoint_trouble trouble;
-    ASSERT_EQ(sculpture_write(s.get(), put, &p), STATUS_OK);
+    ASSERT_EQ(write_out_of(s.get(), &p), STATUS_OK);
     close();
     open(false, 4000, 2);
     ASSERT_EQ(sculpture_read(s.get(), get, &p, &trouble), STATUS_OK) << "empty, without a history: it takes the step";
@@ -431,7 +442,7 @@ TEST_F(sculpture_door, reading_replaces_everything_as_one_stroke_or_nothing)
     const uint64_t other = sculpture_digest(s.get());
     paper p;
     checkpoint_trouble trouble;
-    ASSERT_EQ(sculpture_write(s.get(), put, &p), STATUS_OK);
+    ASSERT_EQ(write_out_of(s.get(), &p), STATUS_OK);
     close();
     open(true);
     stroke(ACTION_TOOTHPASTE, dab_at(0, 0, 0, 9, 3));
@@ -458,7 +469,7 @@ TEST_F(sculpture_door, reading_more_than_fits_changes_nothing)
     stroke(ACTION_TOOTHPASTE, dab_at(0, 0, 0, 20, 3));
     paper p;
     checkpoint_trouble trouble;
-    ASSERT_EQ(sculpture_write(s.get(), put, &p), STATUS_OK);
+    ASSERT_EQ(write_out_of(s.get(), &p), STATUS_OK);
     close();
     open(true, 12);
     stroke(ACTION_TOOTHPASTE, dab_at(4, 4, 4, 4, 3));

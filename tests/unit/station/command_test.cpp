@@ -42,6 +42,8 @@ std::string line_of(const command_form &form, bool high, size_t at, const std::s
             value = std::vector<std::string>{"1.5", "0.4", "0.9", "0.3", "1"}[n];
         if (form.kind == COMMAND_WORKSPACE)
             value = n < 3 ? "-1" : "1";
+        if (form.kind == COMMAND_EXPORT)
+            value += ".ply";
         line += " " + (n == at ? with : value);
     }
     return line;
@@ -105,6 +107,8 @@ TEST(command, what_no_single_argument_says_is_checked_too)
     EXPECT_FALSE(command_parse("turn 0 0 0 90", &expected));
     EXPECT_FALSE(command_parse("orbit 1 2 3 0 0 0 90 100", &expected));
     EXPECT_FALSE(command_parse("workspace 0 0 0 1 0 1", &expected));
+    EXPECT_FALSE(command_parse("export owl.3mf", &expected));
+    EXPECT_NE(expected.find(".glaise"), std::string::npos) << expected;
 }
 
 TEST(command, numbers_are_written_shortest_and_exact)

@@ -108,6 +108,42 @@ protected:
     fs::path base, folder;
 };
 
+TEST_F(program, exports_the_moment_the_tape_asks_for_while_it_goes_on)
+{
+    const std::string more = "+0 place 9 0 0\n+0 action stamp\n+0 apply down\n+200 apply up\n";
+    put(at("whole.tape"), BALL + "+0 export then.glaise\n+0 export then.ply\n+0 export then.stl\n" + more);
+    put(at("first.tape"), BALL);
+    const outcome whole = run({"replay", at("whole.tape"), "--pictures", at("out"), "--export", at("end.glaise")});
+    ASSERT_EQ(whole.exit, 0) << whole.err;
+    ASSERT_EQ(run({"replay", at("first.tape"), "--export", at("first.glaise"), "--export", at("first.ply")}).exit, 0);
+    EXPECT_EQ(text_of(at("out/then.glaise")), text_of(at("first.glaise")));
+    EXPECT_NE(text_of(at("end.glaise")), text_of(at("first.glaise")));
+    EXPECT_GT(text_of(at("out/then.ply")).size(), 1000u);
+    EXPECT_GT(text_of(at("out/then.stl")).size(), 1000u);
+    for (const char *name : {"then.glaise", "then.ply", "then.stl", "end.glaise"})
+        EXPECT_NE(whole.out.find(name), std::string::npos) << whole.out;
+}
+
+TEST_F(program, refuses_a_tape_that_exports_what_no_format_is)
+{
+    put(at("bad.tape"), BALL + "+0 export then.3mf\n");
+    const outcome o = run({"replay", at("bad.tape"), "--pictures", at("out"), "--export", at("end.glaise")});
+    EXPECT_EQ(o.exit, 2);
+    EXPECT_NE(o.err.find("bad.tape:6:"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(".glaise .stl"), std::string::npos) << o.err;
+    EXPECT_FALSE(fs::exists(at("end.glaise")));
+}
+
+TEST_F(program, a_full_disk_costs_the_export_not_the_tape)
+{
+    put(at("whole.tape"), BALL + "+0 export then.glaise\n+0 place 9 0 0\n+0 apply down\n+40 apply up\n");
+    const outcome o = run({"replay", at("whole.tape"), "--pictures", at("out"), "--stats", at("end.json")}, 20000);
+    EXPECT_EQ(o.exit, 1);
+    EXPECT_NE(o.err.find("then.glaise"), std::string::npos) << o.err;
+    EXPECT_FALSE(fs::exists(at("out/then.glaise")));
+    EXPECT_NE(text_of(at("end.json")).find("field_digest"), std::string::npos);
+}
+
 /* --- words --- */
 
 TEST_F(program, wrong_words_are_named)

@@ -2,6 +2,7 @@
 #include "history/checkpoint.h"
 
 #include "clay/digest.h"
+#include "clay/sieve_rows.h"
 #include "history/byte_order.h"
 #include "history/preamble.h"
 #include "history/sentence.h"
@@ -63,25 +64,14 @@ static const brick_page *page_walk_next(page_walk *w, key *at_out)
     return page;
 }
 
-static uint32_t page_stored(const brick_page *p, brick_mask *mask_out)
-{
-    uint32_t stored = 0;
-    *mask_out = (brick_mask){{0}};
-    for (int n = 0; n < BRICK_CORNERS; n++)
-        if (p->potential[n] > POTENTIAL_MIN) {
-            brick_mask_set(mask_out, n);
-            stored++;
-        }
-    return stored;
-}
-
 /* --- writing --- */
 
 typedef struct writer {
     checkpoint_sink sink;
     void *self;
+    lanes rows;
     size_t used;
-    uint8_t block[BLOCK_BYTES];
+    uint8_t block[BLOCK_BYTES + SIEVE_ROWS_SLACK_BYTES];
 } writer;
 
 static status flush(writer *w)
@@ -107,7 +97,7 @@ static status put_header(writer *w, const checkpoint_facts *facts)
 static status put_brick(writer *w, key at, const brick_page *p)
 {
     brick_mask mask;
-    uint32_t stored = page_stored(p, &mask);
+    uint32_t stored = sieve_rows_stored(p, &mask, w->rows);
     if (stored == 0)
         return STATUS_OK;
     if (BLOCK_BYTES - w->used < BRICK_BYTES_MAX) {
@@ -122,14 +112,8 @@ static status put_brick(writer *w, key at, const brick_page *p)
     byte_order_put_u32(b + BRICK_COUNT_AT, stored);
     for (int n = 0; n < BRICK_EDGE; n++)
         byte_order_put_u64(b + BRICK_MASK_AT + 8 * n, mask.slab[n]);
-    uint8_t *potential = b + BRICK_HEAD_BYTES, *rgba = potential + 4 * stored;
-    for (int n = 0; n < BRICK_CORNERS; n++)
-        if (brick_mask_has(&mask, n)) {
-            byte_order_put_float(potential, p->potential[n]);
-            byte_order_put_u32(rgba, p->rgba[n]);
-            potential += 4;
-            rgba += 4;
-        }
+    uint8_t *end = sieve_rows_take(b + BRICK_HEAD_BYTES, p->potential, &mask, w->rows);
+    (void)sieve_rows_take(end, p->rgba, &mask, w->rows);
     size_t vouched = BRICK_HEAD_BYTES + (size_t)stored * CORNER_BYTES;
     byte_order_put_u64(b + vouched, digest_bytes(b, vouched, 0));
     w->used += vouched + CHECKSUM_BYTES;
@@ -145,11 +129,12 @@ static status write_pages(const clay *c, checkpoint_facts facts, bool before, ch
     facts.bricks = 0;
     page_walk_begin(&walk, c, before);
     while ((p = page_walk_next(&walk, &at)) != NULL)
-        facts.bricks += page_stored(p, &mask) > 0;
+        facts.bricks += sieve_rows_stored(p, &mask, c->rows) > 0;
 
     writer w;
     w.sink = sink;
     w.self = self;
+    w.rows = c->rows;
     status s = put_header(&w, &facts);
     page_walk_begin(&walk, c, before);
     while (s == STATUS_OK && (p = page_walk_next(&walk, &at)) != NULL)

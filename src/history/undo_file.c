@@ -3,6 +3,7 @@
 
 #include "clay/colour.h"
 #include "clay/digest.h"
+#include "clay/sieve_rows.h"
 #include "history/byte_order.h"
 
 enum {
@@ -42,34 +43,15 @@ static uint32_t float_bits(float v)
     return bits;
 }
 
-static uint32_t changed_corners(const brick_page *old, const brick_page *now, brick_mask *mask_out)
-{
-    uint32_t changed = 0;
-    *mask_out = (brick_mask){{0}};
-    for (int n = 0; n < BRICK_CORNERS; n++)
-        if (float_bits(old->potential[n]) != float_bits(now->potential[n]) || old->rgba[n] != now->rgba[n]) {
-            brick_mask_set(mask_out, n);
-            changed++;
-        }
-    return changed;
-}
-
 /* One side of a brick: potentials, then colours. */
-static uint8_t *put_side(uint8_t *to, const brick_page *p, const brick_mask *mask, uint32_t corners)
+static uint8_t *put_side(uint8_t *to, const brick_page *p, const brick_mask *mask, lanes l)
 {
-    uint8_t *potential = to, *rgba = to + (size_t)4 * corners;
-    for (int n = 0; n < BRICK_CORNERS; n++)
-        if (brick_mask_has(mask, n)) {
-            byte_order_put_float(potential, p->potential[n]);
-            byte_order_put_u32(rgba, p->rgba[n]);
-            potential += 4;
-            rgba += 4;
-        }
-    return rgba;
+    to = sieve_rows_take(to, p->potential, mask, l);
+    return sieve_rows_take(to, p->rgba, mask, l);
 }
 
 static void put_brick(uint8_t *to, key at, const brick_page *old, const brick_page *now, const brick_mask *mask,
-                      uint32_t corners, uint64_t seed)
+                      uint32_t corners, uint64_t seed, lanes l)
 {
     byte_order_put_u32(to, (uint32_t)at.i);
     byte_order_put_u32(to + 4, (uint32_t)at.j);
@@ -77,8 +59,8 @@ static void put_brick(uint8_t *to, key at, const brick_page *old, const brick_pa
     byte_order_put_u32(to + BRICK_COUNT_AT, corners);
     for (int n = 0; n < BRICK_EDGE; n++)
         byte_order_put_u64(to + BRICK_MASK_AT + 8 * n, mask->slab[n]);
-    uint8_t *end = put_side(to + BRICK_HEAD_BYTES, old, mask, corners);
-    end = put_side(end, now, mask, corners);
+    uint8_t *end = put_side(to + BRICK_HEAD_BYTES, old, mask, l);
+    end = put_side(end, now, mask, l);
     byte_order_put_u64(end, digest_bytes(to, (size_t)(end - to), seed));
 }
 
@@ -105,17 +87,17 @@ status undo_file_encode(const clay *c, undo_file_facts *facts, byte_buffer *out)
     facts->bricks = facts->corners = 0;
     out->size = UNDO_FILE_HEADER_BYTES;
     for (bool more = avl_first(&w, &c->changes.index, &at, &image); more; more = avl_next(&w, &at, &image)) {
-        status s = byte_buffer_reserve(out, out->size + BRICK_BYTES_MAX);
+        status s = byte_buffer_reserve(out, out->size + BRICK_BYTES_MAX + SIEVE_ROWS_SLACK_BYTES);
         if (s != STATUS_OK)
             return s;
         const brick_page *old = clay_image_page(c, image);
         uint32_t id = clay_find(c, at);
         const brick_page *now = id == POOL_NONE ? &empty_page : clay_brick(c, id)->page;
         brick_mask mask;
-        uint32_t corners = changed_corners(old, now, &mask);
+        uint32_t corners = sieve_rows_changed(old, now, &mask, c->rows);
         if (corners == 0)
             continue;
-        put_brick(out->bytes + out->size, at, old, now, &mask, corners, facts->digest_after);
+        put_brick(out->bytes + out->size, at, old, now, &mask, corners, facts->digest_after, c->rows);
         out->size += brick_bytes(corners);
         facts->bricks++;
         facts->corners += corners;

@@ -84,6 +84,13 @@ VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm512_max_ps((__m51
 /* Bit n: lane n. */
 VEC_INLINE unsigned vec_bits(vec_m m) { return m; }
 VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm512_sqrt_ps((__m512)v); }
+/* Lanes that are not zero. */
+VEC_INLINE vec_m vec_any_u(vec_u v) { return _mm512_test_epi32_mask((__m512i)v, (__m512i)v); }
+/* The lanes of the bits, close together in the lowest places; what is above them may be anything. */
+VEC_INLINE vec_u vec_close_up(vec_u v, uint32_t bits)
+{
+    return (vec_u)_mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)v);
+}
 
 #elif defined(__AVX2__)
 
@@ -100,6 +107,14 @@ VEC_INLINE vec_f vec_least(vec_f a, vec_f b) { return (vec_f)_mm256_min_ps((__m2
 VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm256_max_ps((__m256)a, (__m256)b); }
 VEC_INLINE unsigned vec_bits(vec_m m) { return (unsigned)_mm256_movemask_ps((__m256)m); }
 VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm256_sqrt_ps((__m256)v); }
+VEC_INLINE vec_m vec_any_u(vec_u v) { return v != 0; }
+VEC_INLINE vec_u vec_close_up(vec_u v, uint32_t bits)
+{
+    /* A byte a lane: those of the bits, then their numbers, close together. */
+    const uint64_t chosen = _pdep_u64(bits, 0x0101010101010101u) * 0xff;
+    const __m128i places = _mm_cvtsi64_si128((long long)_pext_u64(0x0706050403020100u, chosen));
+    return (vec_u)_mm256_permutevar8x32_epi32((__m256i)v, _mm256_cvtepu8_epi32(places));
+}
 
 #else
 
@@ -109,6 +124,7 @@ VEC_INLINE vec_m vec_ge(vec_f a, vec_f b) { return a >= b; }
 VEC_INLINE vec_m vec_ne(vec_f a, vec_f b) { return a != b; }
 VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no) { return (yes & (vec_u)m) | (no & ~(vec_u)m); }
 VEC_INLINE vec_f vec_pick(vec_m m, vec_f yes, vec_f no) { return (vec_f)vec_pick_u(m, (vec_u)yes, (vec_u)no); }
+VEC_INLINE vec_m vec_any_u(vec_u v) { return v != 0; }
 #if defined(__SSE2__)
 VEC_INLINE vec_f vec_least(vec_f a, vec_f b) { return (vec_f)_mm_min_ps((__m128)a, (__m128)b); }
 VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm_max_ps((__m128)a, (__m128)b); }

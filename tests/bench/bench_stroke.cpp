@@ -27,17 +27,20 @@ struct memory_files {
     static status write(void *self, const char *name, uint64_t offset, const void *bytes, size_t n)
     {
         std::vector<char> &f = of(self).files[name];
-        if (f.size() < offset + n)
-            f.resize(offset + n);
-        if (n > 0)
-            std::memcpy(f.data() + offset, bytes, n);
+        const char *from = static_cast<const char *>(bytes);
+        const size_t within = std::min(n, f.size() - std::min(f.size(), static_cast<size_t>(offset)));
+        if (f.size() < offset)
+            f.resize(offset);
+        if (within > 0)
+            std::memcpy(f.data() + offset, from, within);
+        f.insert(f.end(), from + within, from + n); /* not filled with zeros first */
         of(self).written += n;
         return STATUS_OK;
     }
     static status size(void *self, const char *name, uint64_t *bytes_out, bool *exists_out)
     {
         const auto at = of(self).files.find(name);
-        *exists_out = at != of(self).files.end();
+        *exists_out = at != of(self).files.end() && !at->second.empty();
         *bytes_out = *exists_out ? at->second.size() : 0;
         return STATUS_OK;
     }
@@ -50,12 +53,12 @@ struct memory_files {
     static status rename(void *self, const char *from, const char *to)
     {
         of(self).files[to].swap(of(self).files[from]);
-        of(self).files.erase(from);
-        return STATUS_OK;
+        return remove(self, from);
     }
+    /* Its memory stays for the next file of that name, as that of a file written over would. */
     static status remove(void *self, const char *name)
     {
-        of(self).files.erase(name);
+        of(self).files[name].clear();
         return STATUS_OK;
     }
     byte_store store() { return {this, read, write, size, truncate, sync, rename, remove}; }

@@ -16,16 +16,23 @@ static void block_gather(const char *const page[3], apron_rows rows, int hi, cha
     const char *a = page[0] ? page[0] : empty_row, *b = page[1] ? page[1] : empty_row;
     const char *d = page[2] ? page[2] : empty_row;
     const size_t a_step = page[0] ? ROW : 0, b_step = page[1] ? ROW : 0, d_step = page[2] ? ROW : 0;
-    for (int di = rows.from_i; di <= rows.to_i; di++)
+    const bool is_wide = hi == APRON_HI_MAX;
+    for (int di = rows.from_i; di <= rows.to_i; di++) {
+        const size_t row = (size_t)((di & 7) << 3 | (rows.from_j & 7));
+        const char *at_a = a + row * a_step + 7 * WORD, *at_b = b + row * b_step, *at_d = d + row * d_step;
+        char *to = out + ((size_t)(di - APRON_LO) * side + (size_t)(rows.from_j - APRON_LO)) * side * WORD;
         for (int dj = rows.from_j; dj <= rows.to_j; dj++) {
-            const size_t row = (size_t)((di & 7) << 3 | (dj & 7));
-            char *to = out + ((size_t)(di - APRON_LO) * side + (size_t)(dj - APRON_LO)) * side * WORD;
-            memcpy(to, a + row * a_step + 7 * WORD, WORD);
-            memcpy(to + WORD, b + row * b_step, ROW);
-            memcpy(to + WORD + ROW, d + row * d_step, WORD);
-            if (hi == APRON_HI_MAX)
-                memcpy(to + 2 * WORD + ROW, d + row * d_step + WORD, WORD);
+            memcpy(to, at_a, WORD);
+            memcpy(to + WORD, at_b, ROW);
+            memcpy(to + WORD + ROW, at_d, WORD);
+            if (is_wide)
+                memcpy(to + 2 * WORD + ROW, at_d + WORD, WORD);
+            at_a += a_step;
+            at_b += b_step;
+            at_d += d_step;
+            to += side * WORD;
         }
+    }
 }
 
 static int8_t least(int a, int b) { return (int8_t)(a < b ? a : b); }
@@ -35,15 +42,18 @@ static int8_t most(int a, int b) { return (int8_t)(a > b ? a : b); }
 static void words_gather(const clay *c, const uint32_t neighbours[BRICK_NEIGHBOURS], int hi, apron_rows rows,
                          size_t offset, char *out)
 {
-    const char *page[BRICK_NEIGHBOURS];
-    for (int n = 0; n < BRICK_NEIGHBOURS; n++)
-        page[n] = neighbours[n] == POOL_NONE ? NULL : (const char *)clay_brick(c, neighbours[n])->page + offset;
     /* Corner -1 lies in the brick below, 0..7 in the middle one, 8 and 9 in the one above. */
     for (int i = -1; i <= 1; i++)
         for (int j = -1; j <= 1; j++) {
             const apron_rows part = {most(rows.from_i, 8 * i), least(rows.to_i, 8 * i + 7), most(rows.from_j, 8 * j),
                                      least(rows.to_j, 8 * j + 7)};
-            block_gather(&page[brick_neighbour_index(i, j, -1)], part, hi, out);
+            if (part.from_i > part.to_i || part.from_j > part.to_j)
+                continue;
+            const uint32_t *id = &neighbours[brick_neighbour_index(i, j, -1)];
+            const char *page[3];
+            for (int n = 0; n < 3; n++)
+                page[n] = id[n] == POOL_NONE ? NULL : (const char *)clay_brick(c, id[n])->page + offset;
+            block_gather(page, part, hi, out);
         }
 }
 

@@ -38,6 +38,7 @@ typedef struct brick {
     key at; /* brick key: its smallest corner divided by 8 */
     uint32_t neighbour[BRICK_NEIGHBOURS];
     brick_mask inside; /* corners at or over POTENTIAL_ISO */
+    bool has_inside, has_outside; /* is any corner, is any not? Of a brick that is not stored, none is */
     uint64_t born;     /* number of its making: ids are used again, these are not */
     uint32_t stored;   /* corners above POTENTIAL_MIN */
     uint32_t image;    /* its image before the stroke (change.h), or POOL_NONE */
@@ -75,6 +76,18 @@ static inline bool brick_mask_is_empty(const brick_mask *m)
     for (int s = 0; s < BRICK_EDGE; s++)
         any |= m->slab[s];
     return any == 0;
+}
+
+static inline void brick_set_inside(brick *b, const brick_mask *inside)
+{
+    uint64_t any = 0, all = ~(uint64_t)0;
+    for (int s = 0; s < BRICK_EDGE; s++) {
+        any |= inside->slab[s];
+        all &= inside->slab[s];
+    }
+    b->inside = *inside;
+    b->has_inside = any != 0;
+    b->has_outside = all != ~(uint64_t)0;
 }
 
 /* Has it a corner at or over iso on the border to the brick `down` (an axis a bit: i 4, j 2, k 1) below? Where that one

@@ -112,7 +112,7 @@ static status brick_make(clay *c, key at, uint32_t page_id, uint32_t *id_out)
         pool_give(&c->bricks, id);
         return s;
     }
-    *b = (brick){.at = at, .born = ++c->births, .image = POOL_NONE, .page_id = page_id};
+    *b = (brick){.at = at, .born = ++c->births, .image = POOL_NONE, .has_outside = true, .page_id = page_id};
     b->page = pages_at(&c->pages, page_id);
     link_up(c, id);
     dirt_born(&c->dirty, b, id);
@@ -145,10 +145,7 @@ static void brick_page_set(clay *c, brick *b, uint32_t page_id)
 /* Of what is full of one colour, one page is enough. */
 static void brick_fold(clay *c, brick *b)
 {
-    for (int n = 0; n < BRICK_EDGE; n++)
-        if (b->inside.slab[n] != ~(uint64_t)0)
-            return;
-    if (!pages_is_full(b->page))
+    if (b->has_outside || !pages_is_full(b->page))
         return;
     b->page_id = pages_fold(&c->pages, b->page_id);
     b->page = pages_at(&c->pages, b->page_id);
@@ -303,12 +300,13 @@ status clay_brick_close(clay *c, uint32_t id, const brick_mask *dirtied)
 {
     brick *b = clay_brick(c, id);
     uint32_t stored = 0;
-    b->inside = (brick_mask){{0}};
+    brick_mask all_inside = {{0}};
     for (int row = 0; row < BRICK_ROWS; row++) {
         uint32_t inside;
         row_close(b->page->potential + row * 8, b->page->rgba + row * 8, &inside, &stored);
-        b->inside.slab[row >> 3] |= (uint64_t)inside << ((row & 7) * 8);
+        all_inside.slab[row >> 3] |= (uint64_t)inside << ((row & 7) * 8);
     }
+    brick_set_inside(b, &all_inside);
     c->corners += (uint64_t)stored - b->stored;
     b->stored = stored;
     status s = stored_mark(c, id, dirtied, dirtied);
@@ -335,7 +333,7 @@ void clay_brick_settle(clay *c, uint32_t id, const clay_written *now)
     brick *b = clay_brick(c, id);
     c->corners += (uint64_t)now->stored - b->stored;
     b->stored = now->stored;
-    b->inside = now->inside;
+    brick_set_inside(b, &now->inside);
     b->digest_known = false;
     status s = stored_mark(c, id, &now->dirtied, &now->moved);
     assert(s == STATUS_OK);
@@ -366,7 +364,7 @@ static status brick_copy(clay *to, const brick *from, uint32_t *id_out)
     }
     brick *b = clay_brick(to, *id_out);
     b->stored = from->stored;
-    b->inside = from->inside;
+    brick_set_inside(b, &from->inside);
     brick_fold(to, b);
     return STATUS_OK;
 }
@@ -561,7 +559,9 @@ static bool brick_is_valid(const clay *c, uint32_t id)
             return false;
         stored += v > POTENTIAL_MIN;
     }
-    if (stored != b->stored || stored == 0)
+    const uint32_t inside = brick_mask_count(&b->inside);
+    if (stored != b->stored || stored == 0 || b->has_inside != (inside > 0) ||
+        b->has_outside != (inside < BRICK_CORNERS))
         return false;
     for (int n = 0; n < BRICK_NEIGHBOURS; n++)
         if (b->neighbour[n] != clay_find(c, brick_neighbour_key(b->at, n)))

@@ -86,6 +86,7 @@ VEC_INLINE unsigned vec_bits(vec_m m) { return m; }
 VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm512_sqrt_ps((__m512)v); }
 /* Lanes that are not zero. */
 VEC_INLINE vec_m vec_any_u(vec_u v) { return _mm512_test_epi32_mask((__m512i)v, (__m512i)v); }
+VEC_INLINE vec_m vec_eq_u(vec_u a, vec_u b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
 /* The lanes of the bits, close together in the lowest places; what is above them may be anything. */
 VEC_INLINE vec_u vec_close_up(vec_u v, uint32_t bits)
 {
@@ -108,6 +109,7 @@ VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm256_max_ps((__m25
 VEC_INLINE unsigned vec_bits(vec_m m) { return (unsigned)_mm256_movemask_ps((__m256)m); }
 VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm256_sqrt_ps((__m256)v); }
 VEC_INLINE vec_m vec_any_u(vec_u v) { return v != 0; }
+VEC_INLINE vec_m vec_eq_u(vec_u a, vec_u b) { return a == b; }
 VEC_INLINE vec_u vec_close_up(vec_u v, uint32_t bits)
 {
     /* A byte a lane: those of the bits, then their numbers, close together. */
@@ -125,6 +127,7 @@ VEC_INLINE vec_m vec_ne(vec_f a, vec_f b) { return a != b; }
 VEC_INLINE vec_u vec_pick_u(vec_m m, vec_u yes, vec_u no) { return (yes & (vec_u)m) | (no & ~(vec_u)m); }
 VEC_INLINE vec_f vec_pick(vec_m m, vec_f yes, vec_f no) { return (vec_f)vec_pick_u(m, (vec_u)yes, (vec_u)no); }
 VEC_INLINE vec_m vec_any_u(vec_u v) { return v != 0; }
+VEC_INLINE vec_m vec_eq_u(vec_u a, vec_u b) { return a == b; }
 #if defined(__SSE2__)
 VEC_INLINE vec_f vec_least(vec_f a, vec_f b) { return (vec_f)_mm_min_ps((__m128)a, (__m128)b); }
 VEC_INLINE vec_f vec_most(vec_f a, vec_f b) { return (vec_f)_mm_max_ps((__m128)a, (__m128)b); }
@@ -147,4 +150,55 @@ VEC_INLINE vec_f vec_sqrt(vec_f v)
 #endif
 
 #endif
+
+/* Eight numbers a lane become eight in a row: lane n's lie from to + 8 n on. */
+#if defined(__AVX2__)
+VEC_INLINE void vec_rows_of_eight(float *to, const __m256 f[8])
+{
+    __m256 pair[8], four[8];
+    for (int n = 0; n < 8; n += 2) {
+        pair[n] = _mm256_unpacklo_ps(f[n], f[n + 1]);
+        pair[n + 1] = _mm256_unpackhi_ps(f[n], f[n + 1]);
+    }
+    for (int n = 0; n < 8; n += 4) {
+        four[n] = _mm256_shuffle_ps(pair[n], pair[n + 2], 0x44);
+        four[n + 1] = _mm256_shuffle_ps(pair[n], pair[n + 2], 0xee);
+        four[n + 2] = _mm256_shuffle_ps(pair[n + 1], pair[n + 3], 0x44);
+        four[n + 3] = _mm256_shuffle_ps(pair[n + 1], pair[n + 3], 0xee);
+    }
+    for (int n = 0; n < 4; n++) {
+        _mm256_storeu_ps(to + 8 * n, _mm256_permute2f128_ps(four[n], four[n + 4], 0x20));
+        _mm256_storeu_ps(to + 8 * (n + 4), _mm256_permute2f128_ps(four[n], four[n + 4], 0x31));
+    }
+}
+#endif
+VEC_INLINE void vec_store_rows(float *to, const vec_f f[8])
+{
+#if defined(__AVX512F__)
+    __m256 half[8];
+    for (int n = 0; n < 8; n++)
+        half[n] = _mm512_castps512_ps256((__m512)f[n]);
+    vec_rows_of_eight(to, half);
+    for (int n = 0; n < 8; n++)
+        half[n] = _mm512_extractf32x8_ps((__m512)f[n], 1);
+    vec_rows_of_eight(to + 64, half);
+#elif defined(__AVX2__)
+    __m256 whole[8];
+    for (int n = 0; n < 8; n++)
+        whole[n] = (__m256)f[n];
+    vec_rows_of_eight(to, whole);
+#else
+    for (int n = 0; n < 8; n += 4) {
+        const vec_f a = __builtin_shufflevector(f[n], f[n + 1], 0, 4, 1, 5);
+        const vec_f b = __builtin_shufflevector(f[n], f[n + 1], 2, 6, 3, 7);
+        const vec_f c = __builtin_shufflevector(f[n + 2], f[n + 3], 0, 4, 1, 5);
+        const vec_f d = __builtin_shufflevector(f[n + 2], f[n + 3], 2, 6, 3, 7);
+        vec_store(to + n, __builtin_shufflevector(a, c, 0, 1, 4, 5));
+        vec_store(to + 8 + n, __builtin_shufflevector(a, c, 2, 3, 6, 7));
+        vec_store(to + 16 + n, __builtin_shufflevector(b, d, 0, 1, 4, 5));
+        vec_store(to + 24 + n, __builtin_shufflevector(b, d, 2, 3, 6, 7));
+    }
+#endif
+}
+
 #endif

@@ -1,40 +1,78 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "surface/polygonizer.h"
 
+#include <string.h>
+
+void polygonizer_cases_init(polygonizer_cases *p)
+{
+    case_table t;
+    case_table_init(&t);
+    memset(p, 0, sizeof *p);
+    memcpy(p->triangles, t.triangles, sizeof p->triangles);
+    for (int index = 0; index < CASE_TABLE_CASES; index++)
+        for (int n = 0; n < 3 * t.triangles[index]; n++) {
+            int c, to;
+            case_table_edge(t.edge[index][n], &c, &to);
+            int slot = ((c & 1) * PATCH_SIDE + (c >> 1 & 1)) * PATCH_SIDE + (c >> 2);
+            p->name[index][n] = (uint16_t)(slot * 3 + t.edge[index][n] / 4);
+        }
+}
+
 void polygonizer_look(polygonizer *p, const clay *c, key brick_at, uint32_t brick_id)
 {
     p->of = c;
     p->at = brick_at;
     p->brick_id = brick_id;
-    for (int n = 0; n < 8; n++) {
-        int di = n >> 2, dj = n >> 1 & 1, dk = n & 1;
-        uint32_t id = brick_id != POOL_NONE ? clay_brick(c, brick_id)->neighbour[brick_neighbour_index(di, dj, dk)]
-                      : n > 0               ? clay_find(c, key_add(brick_at, di, dj, dk))
-                                            : POOL_NONE;
+    p->above[0] = brick_id == POOL_NONE ? NULL : clay_brick(c, brick_id);
+    for (int n = 1; n < 8; n++) {
+        uint32_t id = p->above[0] ? p->above[0]->neighbour[brick_neighbour_index(n >> 2, n >> 1 & 1, n & 1)]
+                                  : clay_find(c, key_add(brick_at, n >> 2, n >> 1 & 1, n & 1));
         p->above[n] = id == POOL_NONE ? NULL : clay_brick(c, id);
     }
 }
 
-/* Word s of the inside bits of a brick above. */
-static uint64_t word_of(const polygonizer *p, int n, int s) { return p->above[n] ? p->above[n]->inside.slab[s] : 0; }
-
 /* Bit dk of a row becomes that of corner dk + 1, the last one out of the brick above. */
 static uint64_t next_k(uint64_t w, uint64_t above) { return (w >> 1 & ~BRICK_K_LAST) | (above & BRICK_K_FIRST) << 7; }
 
+/* Inside a piece, and away from it, all eight bricks are on one side. */
+static bool may_cross(const polygonizer *p)
+{
+    bool has_inside = false, has_outside = false;
+    for (int n = 0; n < 8; n++) {
+        has_inside |= p->above[n] && p->above[n]->has_inside;
+        has_outside |= !p->above[n] || p->above[n]->has_outside;
+    }
+    return has_inside && has_outside;
+}
+
+/* Of each square of four corners in a layer: is any inside, are all? */
+typedef struct layer {
+    uint64_t any, all;
+} layer;
+
+static inline layer layer_of(const uint64_t *const word[4], int s)
+{
+    const uint64_t w = word[0][s], wk = next_k(w, word[1][s]);
+    const uint64_t j = word[2][s], jk = next_k(j, word[3][s]); /* their first row alone is wanted */
+    const uint64_t any = w | wk, all = w & wk;
+    return (layer){any | any >> 8 | (j | jk) << 56, all & (all >> 8 | (j & jk) << 56)};
+}
+
 void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out)
 {
-    uint64_t any_below = 0, all_below = 0;
-    for (int di = 0; di < PATCH_SIDE; di++) {
-        int n = (di >> 3) * 4, s = di & 7;
-        uint64_t w = word_of(p, n, s), wk = next_k(w, word_of(p, n + 1, s));
-        uint64_t j = word_of(p, n + 2, s), jk = next_k(j, word_of(p, n + 3, s));
-        uint64_t any = w | wk, all = w & wk;
-        any |= any >> 8 | (j | jk) << 56;
-        all &= all >> 8 | (j & jk) << 56;
-        if (di > 0)
-            crossing_out->slab[di - 1] = (any | any_below) & ~(all & all_below);
-        any_below = any;
-        all_below = all;
+    static const brick_mask nothing;
+    if (!may_cross(p)) {
+        *crossing_out = (brick_mask){{0}};
+        return;
+    }
+    const uint64_t *word[8];
+    for (int n = 0; n < 8; n++)
+        word[n] = p->above[n] ? p->above[n]->inside.slab : nothing.slab;
+    layer below = layer_of(word, 0);
+    for (int di = 1; di <= BRICK_EDGE; di++) {
+        const layer here = di < BRICK_EDGE ? layer_of(word, di) : layer_of(word + 4, 0);
+        crossing_out->slab[di - 1] = (here.any | below.any) & ~(here.all & below.all);
+        below = here;
     }
 }
 

@@ -34,12 +34,8 @@ typedef struct polygonizer_bits {
     uint16_t row[PATCH_SIDE][PATCH_SIDE];
 } polygonizer_bits;
 
-/* A vertex to be made. */
-typedef struct polygonizer_order {
-    uint16_t vertex;
-    uint8_t d[3]; /* the edge's smaller corner */
-    uint8_t axis;
-} polygonizer_order;
+/* Vertices to be made are ordered as words of bytes: the edge's smaller corner di, dj, dk, then its axis. */
+enum { POLYGONIZER_ORDERS_MAX = PATCH_VERTICES_MAX + 16 }; /* the last vector is filled up */
 
 typedef struct polygonizer {
     const clay *of;
@@ -48,13 +44,22 @@ typedef struct polygonizer {
     const brick *above[8];      /* the bricks 0..1 an axis, k fastest; NULL where none is stored */
     polygonizer_bits inside;    /* corners at or over iso: polygonizer_make */
     float potential[APRON_CORNERS_MAX]; /* corners -1..9 an axis */
+    const uint32_t *rgba[8];            /* colours of the bricks above */
     uint16_t vertex_of[PATCH_EDGE_NAMES];    /* of cut edges only */
-    uint32_t vertex_count, triangle_count, order_count;
+    uint32_t vertex_count, triangle_count, order_count, crossing_count;
     uint16_t first[PATCH_SIDE]; /* as the patch's */
-    polygonizer_order orders[PATCH_VERTICES_MAX];
+    uint32_t order[POLYGONIZER_ORDERS_MAX];
+    uint16_t order_vertex[PATCH_VERTICES_MAX]; /* which vertex it will be */
     patch_vertex vertices[PATCH_VERTICES_MAX];
     uint16_t triangles[POLYGONIZER_TRIANGLES_MAX][3];
 } polygonizer;
+
+/* The case table, its edges by the names they have in a patch, for the cube at (0, 0, 0). */
+typedef struct polygonizer_cases {
+    uint8_t triangles[CASE_TABLE_CASES];
+    uint16_t name[CASE_TABLE_CASES][16];
+} polygonizer_cases;
+void polygonizer_cases_init(polygonizer_cases *p);
 
 /* What became of a patch. */
 typedef enum polygonizer_outcome {
@@ -70,16 +75,17 @@ void polygonizer_crossing(const polygonizer *p, brick_mask *crossing_out);
 uint32_t polygonizer_stored_cubes(const polygonizer *p);
 
 /* polygonizer_rows.c. */
-polygonizer_outcome polygonizer_make_plain(polygonizer *p, const case_table *t, const brick_mask *crossing,
+polygonizer_outcome polygonizer_make_plain(polygonizer *p, const polygonizer_cases *t, const brick_mask *crossing,
                                            const brick_mask *const aged_at[8], const patch *old);
-polygonizer_outcome polygonizer_make_avx2(polygonizer *p, const case_table *t, const brick_mask *crossing,
+polygonizer_outcome polygonizer_make_avx2(polygonizer *p, const polygonizer_cases *t, const brick_mask *crossing,
                                           const brick_mask *const aged_at[8], const patch *old);
-polygonizer_outcome polygonizer_make_avx512(polygonizer *p, const case_table *t, const brick_mask *crossing,
+polygonizer_outcome polygonizer_make_avx512(polygonizer *p, const polygonizer_cases *t, const brick_mask *crossing,
                                             const brick_mask *const aged_at[8], const patch *old);
 /* crossing: what polygonizer_crossing said. old: the patch as it was; NULL: there was none, or all is to be made.
    aged_at: of the eight bricks of `above`, the corners that aged since; NULL: none. */
-static inline polygonizer_outcome polygonizer_make(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                                   const brick_mask *const aged_at[8], const patch *old)
+static inline polygonizer_outcome polygonizer_make(polygonizer *p, const polygonizer_cases *t,
+                                                   const brick_mask *crossing, const brick_mask *const aged_at[8],
+                                                   const patch *old)
 {
     return LANES_PICK(polygonizer_make, p->of->rows)(p, t, crossing, aged_at, old);
 }

@@ -15,14 +15,23 @@ static const int stride_of[3] = {STRIDE_I, STRIDE_J, STRIDE_K};
 
 /* --- bits --- */
 
+typedef uint8_t eight_u8 __attribute__((vector_size(8)));
+typedef uint16_t eight_u16 __attribute__((vector_size(16)));
+
+VEC_INLINE eight_u16 widened(uint64_t bytes)
+{
+    eight_u8 narrow;
+    memcpy(&narrow, &bytes, sizeof narrow);
+    return __builtin_convertvector(narrow, eight_u16);
+}
+
 /* The rows of nine, out of the masks of the eight bricks. */
 static void rows_join(const brick_mask *const mask[8], polygonizer_bits *out)
 {
     for (int di = 0; di < PATCH_SIDE; di++) {
-        int n = (di >> 3) * 4, s = di & 7;
-        uint64_t w = mask[n]->slab[s], k = mask[n + 1]->slab[s];
-        for (int dj = 0; dj < BRICK_EDGE; dj++, w >>= 8, k >>= 8)
-            out->row[di][dj] = (uint16_t)((w & 0xff) | (k & 1) << 8);
+        const int n = (di >> 3) * 4, s = di & 7;
+        const eight_u16 rows = widened(mask[n]->slab[s]) | widened(mask[n + 1]->slab[s] & BRICK_K_FIRST) << 8;
+        memcpy(out->row[di], &rows, sizeof rows);
         out->row[di][BRICK_EDGE] = (uint16_t)((mask[n + 2]->slab[s] & 0xff) | (mask[n + 3]->slab[s] & 1) << 8);
     }
 }
@@ -43,124 +52,157 @@ VEC_INLINE unsigned spread_by_three(unsigned x)
 /* Bit n of nine becomes bit 4 n. */
 VEC_INLINE uint64_t spread_by_four(unsigned x)
 {
+#if defined(__BMI2__)
+    return _pdep_u64(x, 0x111111111u);
+#else
     uint64_t low = x & 0xff;
     low = (low | low << 12) & 0x000f000fu;
     low = (low | low << 6) & 0x03030303u;
     low = (low | low << 3) & 0x11111111u;
     return low | (uint64_t)(x >> 8 & 1) << 32;
+#endif
 }
 
 /* --- vertices --- */
 
 /* Numbers of VEC_LANES vertices, one array a number. */
 typedef struct batch {
-    float low[VEC_LANES], high[VEC_LANES];             /* potentials of the edge's two corners */
-    float at_low[3][VEC_LANES], at_high[3][VEC_LANES]; /* differences there: twice the gradients */
+    uint32_t place_low[VEC_LANES], place_high[VEC_LANES];   /* of the edge's two corners in the apron */
+    uint32_t colour_low[VEC_LANES], colour_high[VEC_LANES]; /* and in the pages: brick above * 512 + slot */
+    float low[VEC_LANES], high[VEC_LANES];                  /* potentials */
+    float at_low[3][VEC_LANES], at_high[3][VEC_LANES];      /* differences: twice the gradients */
     uint32_t rgba_low[VEC_LANES], rgba_high[VEC_LANES];
-    float along[VEC_LANES];   /* out: distance from the smaller corner */
-    float normal[3][VEC_LANES];
-    float flat[VEC_LANES];    /* out: where the gradient vanishes, 1 if out is up the edge, else -1; 0 elsewhere */
-    uint32_t rgba[VEC_LANES];
 } batch;
 
-static inline uint32_t corner_rgba(const polygonizer *p, int di, int dj, int dk)
+/* Where the corner d lies in the pages of the eight bricks. */
+VEC_INLINE vec_u colour_place(const vec_u d[3])
 {
-    const brick *b = p->above[(di >> 3) * 4 + (dj >> 3) * 2 + (dk >> 3)];
-    return b ? b->page->rgba[(di & 7) << 6 | (dj & 7) << 3 | (dk & 7)] : COLOUR_NONE;
+    const vec_u above = (d[0] >> 3) << 2 | (d[1] >> 3) << 1 | d[2] >> 3;
+    return above << 9 | (d[0] & 7) << 6 | (d[1] & 7) << 3 | (d[2] & 7);
 }
 
-static inline void batch_read(batch *b, int n, const polygonizer *p, const polygonizer_order *o)
+/* The orders, read: corners d, axes, and where everything lies. */
+VEC_INLINE void batch_place(batch *b, const uint32_t *order, vec_u d[3], vec_u *axis)
 {
-    const float *low = &p->potential[(o->d[0] - APRON_LO) * STRIDE_I + (o->d[1] - APRON_LO) * STRIDE_J +
-                                     (o->d[2] - APRON_LO)];
-    const float *high = low + stride_of[o->axis];
+    const vec_u o = vec_load_u(order), one = vec_all_u(1), zero = vec_all_u(0);
+    vec_u high[3], stride = vec_all_u(STRIDE_K);
+    *axis = o >> 24;
+    for (uint32_t a = 0; a < 3; a++) {
+        const vec_m is = vec_eq_u(*axis, vec_all_u(a));
+        d[a] = o >> (8 * a) & 255;
+        high[a] = d[a] + vec_pick_u(is, one, zero);
+        if (a < 2)
+            stride = vec_pick_u(is, vec_all_u(a == 0 ? STRIDE_I : STRIDE_J), stride);
+    }
+    const vec_u low = d[0] * STRIDE_I + d[1] * STRIDE_J + d[2] - APRON_LO * (STRIDE_I + STRIDE_J + STRIDE_K);
+    vec_store_u(b->place_low, low);
+    vec_store_u(b->place_high, low + stride);
+    vec_store_u(b->colour_low, colour_place(d));
+    vec_store_u(b->colour_high, colour_place(high));
+}
+
+static inline uint32_t corner_rgba(const polygonizer *p, uint32_t place)
+{
+    return p->rgba[place >> 9][place & (BRICK_CORNERS - 1)];
+}
+
+static inline void batch_read(batch *b, int n, const polygonizer *p)
+{
+    const float *low = p->potential + b->place_low[n], *high = p->potential + b->place_high[n];
     b->low[n] = *low;
     b->high[n] = *high;
     for (int a = 0; a < 3; a++) {
         b->at_low[a][n] = low[stride_of[a]] - low[-stride_of[a]];
         b->at_high[a][n] = high[stride_of[a]] - high[-stride_of[a]];
     }
-    b->rgba_low[n] = corner_rgba(p, o->d[0], o->d[1], o->d[2]);
-    b->rgba_high[n] = corner_rgba(p, o->d[0] + (o->axis == 0), o->d[1] + (o->axis == 1), o->d[2] + (o->axis == 2));
+    b->rgba_low[n] = corner_rgba(p, b->colour_low[n]);
+    b->rgba_high[n] = corner_rgba(p, b->colour_high[n]);
 }
 
-/* Position, normal and colour as surface.h has them. Differences are left undivided: twice the gradient has the same
-   direction. */
-static inline void batch_make(batch *b)
+/* Where the gradient vanishes the normal is the edge's axis. */
+VEC_INLINE void normals_flat(vec_f normal[3], vec_m flat, vec_f up, vec_u axis)
+{
+    for (uint32_t a = 0; a < 3; a++)
+        normal[a] = vec_pick(flat, vec_pick(vec_eq_u(axis, vec_all_u(a)), up, vec_all(0)), normal[a]);
+}
+
+/* Position, normal and colour as surface.h has them, as rows of a patch_vertex. Differences are left undivided: twice
+   the gradient has the same direction. */
+VEC_INLINE void batch_make(const batch *b, const vec_u d[3], vec_u axis, float *rows_out)
 {
     const vec_f one = vec_all(1), zero = vec_all(0);
+    vec_f row[8];
     vec_f low = vec_load(b->low), high = vec_load(b->high);
     vec_m up = vec_ge(low, vec_all(POTENTIAL_ISO)); /* out of the clay is up the axis */
     vec_f in = vec_pick(up, low, high), out = vec_pick(up, high, low);
     vec_f t = (in - POTENTIAL_ISO) / (in - out);
     vec_f kept = vec_pick(vec_gt(vec_all(END_CLEARANCE), t), vec_all(END_CLEARANCE), t);
     kept = vec_pick(vec_gt(kept, one - END_CLEARANCE), one - END_CLEARANCE, kept);
-    vec_store(b->along, vec_pick(up, kept, one - kept));
+    vec_f along = vec_pick(up, kept, one - kept); /* from the smaller corner */
+    for (uint32_t a = 0; a < 3; a++)
+        row[a] = vec_float_of((vec_i)d[a]) + vec_pick(vec_eq_u(axis, vec_all_u(a)), along, zero);
 
-    vec_f g[3];
     for (int a = 0; a < 3; a++) {
         vec_f at_low = vec_load(b->at_low[a]), at_high = vec_load(b->at_high[a]);
-        g[a] = (one - t) * vec_pick(up, at_low, at_high) + t * vec_pick(up, at_high, at_low);
+        row[3 + a] = (one - t) * vec_pick(up, at_low, at_high) + t * vec_pick(up, at_high, at_low);
     }
-    vec_f squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    vec_f squared = row[3] * row[3] + row[4] * row[4] + row[5] * row[5];
     vec_m flat = vec_gt(vec_all(DIFFERENCE_SQUARED_MIN), squared);
-    vec_f scale = vec_pick(flat, zero, -1.0f / vec_sqrt(squared));
+    vec_f scale = -1.0f / vec_sqrt(squared);
     for (int a = 0; a < 3; a++)
-        vec_store(b->normal[a], g[a] * scale);
-    vec_store(b->flat, vec_pick(flat, vec_pick(up, one, -one), zero));
+        row[3 + a] *= scale;
+    if (vec_bits(flat) != 0)
+        normals_flat(&row[3], flat, vec_pick(up, one, -one), axis);
 
     vec_u rgba_low = vec_load_u(b->rgba_low), rgba_high = vec_load_u(b->rgba_high);
     vec_u rgba_in = vec_pick_u(up, rgba_low, rgba_high), rgba_out = vec_pick_u(up, rgba_high, rgba_low);
     rgba_out = vec_pick_u(vec_gt(out, vec_all(POTENTIAL_MIN)), rgba_out, rgba_in);
     vec_f to[4];
     colour_rows_channels(rgba_out, to);
-    vec_store_u(b->rgba, colour_rows_mix(rgba_in, to, t, vec_all(0.5f))); /* half way rounds up */
-}
-
-static inline void batch_write(const batch *b, int n, const polygonizer_order *o, patch_vertex *v)
-{
-    for (int a = 0; a < 3; a++) {
-        v->position[a] = (float)o->d[a];
-        v->normal[a] = b->normal[a][n];
-    }
-    v->position[o->axis] += b->along[n];
-    if (b->flat[n] != 0) {
-        v->normal[0] = v->normal[1] = v->normal[2] = 0;
-        v->normal[o->axis] = b->flat[n];
-    }
-    v->rgba = b->rgba[n];
-    v->edge = (uint32_t)(((o->d[0] * PATCH_SIDE + o->d[1]) * PATCH_SIDE + o->d[2]) * 3 + o->axis);
+    row[6] = (vec_f)colour_rows_mix(rgba_in, to, t, vec_all(0.5f)); /* half way rounds up */
+    row[7] = (vec_f)(((d[0] * PATCH_SIDE + d[1]) * PATCH_SIDE + d[2]) * 3 + axis);
+    vec_store_rows(rows_out, row);
 }
 
 /* The rows that hold the corners of the edges ordered, and those round them. */
 static apron_rows rows_needed(const polygonizer *p)
 {
     /* Orders ascend along i. */
-    const polygonizer_order *first = &p->orders[0], *last = &p->orders[p->order_count - 1];
-    apron_rows r = {(int8_t)(first->d[0] - 1), (int8_t)(last->d[0] + 2), BRICK_EDGE, 0};
+    int from_i = p->order[0] & 255, to_i = p->order[p->order_count - 1] & 255, from_j = BRICK_EDGE, to_j = 0;
     for (uint32_t n = 0; n < p->order_count; n++) {
-        int8_t dj = (int8_t)p->orders[n].d[1];
-        r.from_j = dj < r.from_j ? dj : r.from_j;
-        r.to_j = dj > r.to_j ? dj : r.to_j;
+        int dj = p->order[n] >> 8 & 255;
+        from_j = dj < from_j ? dj : from_j;
+        to_j = dj > to_j ? dj : to_j;
     }
-    r.to_i = r.to_i > APRON_HI_MAX ? APRON_HI_MAX : r.to_i;
-    r.from_j = (int8_t)(r.from_j - 1);
-    r.to_j = r.to_j + 2 > APRON_HI_MAX ? APRON_HI_MAX : (int8_t)(r.to_j + 2);
-    return r;
+    to_i = to_i + 2 > APRON_HI_MAX ? APRON_HI_MAX : to_i + 2;
+    to_j = to_j + 2 > APRON_HI_MAX ? APRON_HI_MAX : to_j + 2;
+    return (apron_rows){(int8_t)(from_i - 1), (int8_t)to_i, (int8_t)(from_j - 1), (int8_t)to_j};
 }
 
-/* Makes the vertices ordered. The last batch is filled up with its first vertex. */
+/* Makes the vertices ordered. The last batch is filled up with the first order. */
 static void orders_carry_out(polygonizer *p)
 {
-    batch b;
+    static const uint32_t none[BRICK_CORNERS]; /* COLOUR_NONE */
+    _Static_assert(sizeof(patch_vertex) == 8 * sizeof(float), "eight words");
+    for (int n = 0; n < 8; n++)
+        p->rgba[n] = p->above[n] ? p->above[n]->page->rgba : none;
+    for (uint32_t n = 0; n < VEC_LANES; n++)
+        p->order[p->order_count + n] = p->order[0];
     for (uint32_t from = 0; from < p->order_count; from += VEC_LANES) {
         uint32_t count = p->order_count - from < VEC_LANES ? p->order_count - from : VEC_LANES;
-        const polygonizer_order *o = &p->orders[from];
-        for (uint32_t n = 0; n < VEC_LANES; n++)
-            batch_read(&b, (int)n, p, &o[n < count ? n : 0]);
-        batch_make(&b);
-        for (uint32_t n = 0; n < count; n++)
-            batch_write(&b, (int)n, &o[n], &p->vertices[o[n].vertex]);
+        batch b;
+        vec_u d[3], axis;
+        float rows[8 * VEC_LANES];
+        batch_place(&b, &p->order[from], d, &axis);
+        for (int n = 0; n < VEC_LANES; n++)
+            batch_read(&b, n, p);
+        batch_make(&b, d, axis, rows);
+        const uint16_t *vertex = &p->order_vertex[from];
+        if (count == VEC_LANES && vertex[VEC_LANES - 1] - vertex[0] == VEC_LANES - 1)
+            memcpy(&p->vertices[vertex[0]], rows, sizeof rows); /* they follow each other */
+        else
+            for (uint32_t n = 0; n < count; n++)
+                memcpy(&p->vertices[vertex[n]], rows + (size_t)8 * n, sizeof(patch_vertex));
     }
 }
 
@@ -202,11 +244,16 @@ VEC_INLINE unsigned edges_aged(const polygonizer_bits *aged, int di, int dj)
     return spread_by_three(i) | spread_by_three(j) << 1 | spread_by_three(row | row >> 1) << 2;
 }
 
-VEC_INLINE void order_add(polygonizer *p, int di, int dj, int name, uint32_t vertex)
+/* Of the edges of a row, by name: dk and axis as an order has them. */
+#define ORDERS_AT(dk) (dk) << 16, (dk) << 16 | 1 << 24, (dk) << 16 | 2 << 24
+static const uint32_t order_of[ROW_EDGES] = {ORDERS_AT(0), ORDERS_AT(1), ORDERS_AT(2), ORDERS_AT(3), ORDERS_AT(4),
+                                             ORDERS_AT(5), ORDERS_AT(6), ORDERS_AT(7), ORDERS_AT(8)};
+
+/* row: di and dj, as an order has them. */
+VEC_INLINE void order_add(polygonizer *p, uint32_t at, uint32_t row, int name, uint32_t vertex)
 {
-    const uint8_t dk = (uint8_t)(name * 43 >> 7); /* a third, of what a row has */
-    p->orders[p->order_count++] =
-        (polygonizer_order){(uint16_t)vertex, {(uint8_t)di, (uint8_t)dj, dk}, (uint8_t)(name - 3 * dk)};
+    p->order_vertex[at] = (uint16_t)vertex;
+    p->order[at] = row | order_of[name];
 }
 
 /* All vertices in their order: those of aged edges are ordered, the others taken from the old patch. */
@@ -215,7 +262,7 @@ static void vertices_renew(polygonizer *p, const brick_mask *crossing, const pol
     const patch_vertex *from = old ? old->vertices : NULL;
     uint16_t rows[PATCH_SIDE];
     rows_cut(crossing, rows);
-    uint32_t count = 0;
+    uint32_t count = 0, orders = 0;
     for (int di = 0; di < PATCH_SIDE; di++) {
         p->first[di] = (uint16_t)count;
         for (unsigned todo = rows[di]; todo; todo &= todo - 1) {
@@ -226,7 +273,7 @@ static void vertices_renew(polygonizer *p, const brick_mask *crossing, const pol
                 int name = __builtin_ctz(left);
                 p->vertex_of[row + name] = (uint16_t)count;
                 if (made >> name & 1) {
-                    order_add(p, di, dj, name, count);
+                    order_add(p, orders++, (uint32_t)(di | dj << 8), name, count);
                     continue;
                 }
                 /* Neither of its corners changed sides: the old patch has it. */
@@ -237,6 +284,7 @@ static void vertices_renew(polygonizer *p, const brick_mask *crossing, const pol
         }
     }
     p->vertex_count = count;
+    p->order_count = orders;
 }
 
 static bool slab_is_aged(const polygonizer_bits *aged, int di)
@@ -250,6 +298,7 @@ static bool slab_is_aged(const polygonizer_bits *aged, int di)
 /* No corner changed sides: each vertex stays in its place, those of aged edges are ordered. */
 static void vertices_refresh(polygonizer *p, const polygonizer_bits *aged, const patch *old)
 {
+    uint32_t orders = 0;
     for (int di = 0; di < PATCH_SIDE; di++) {
         uint32_t count = old->first[di], end = di < BRICK_EDGE ? old->first[di + 1] : old->vertex_count;
         if (count == end || !slab_is_aged(aged, di))
@@ -261,59 +310,57 @@ static void vertices_refresh(polygonizer *p, const polygonizer_bits *aged, const
             for (unsigned left = cut & edges_aged(aged, di, dj); left; left &= left - 1) {
                 int name = __builtin_ctz(left);
                 uint32_t before = (uint32_t)__builtin_popcount(cut & ((1u << name) - 1));
-                order_add(p, di, dj, name, count + before);
+                order_add(p, orders++, (uint32_t)(di | dj << 8), name, count + before);
             }
             count += (uint32_t)__builtin_popcount(cut);
         }
     }
     p->vertex_count = old->vertex_count;
+    p->order_count = orders;
 }
 
 /* --- triangles --- */
 
-/* A cube's triangles by its edges' names; the table knows edges only. Writes more than there are: the next cube's come
-   over them. */
-static inline void triangles_of(uint16_t *out, const uint16_t *vertex, const uint8_t *e, const int *name, int count)
+/* A cube's triangles. Writes more than there are: the next cube's come over them. */
+static inline void triangles_of(uint16_t *out, const uint16_t *vertex, const uint16_t *name, int count)
 {
     enum { USUAL = 2 };
     for (int n = 0; n < USUAL * 3; n++)
-        out[n] = vertex[name[e[n]]];
+        out[n] = vertex[name[n]];
     if (count > USUAL)
         for (int n = USUAL * 3; n < CASE_TABLE_TRIANGLES_MAX * 3; n++)
-            out[n] = vertex[name[e[n]]];
+            out[n] = vertex[name[n]];
 }
 
-static void triangles_make(polygonizer *p, const case_table *t, const brick_mask *crossing)
+static void triangles_make(polygonizer *p, const polygonizer_cases *t, const brick_mask *crossing)
 {
-    int name[CASE_TABLE_EDGES]; /* of a cube's edges, for the cube at (0, 0, 0) */
-    for (int e = 0; e < CASE_TABLE_EDGES; e++) {
-        int c, to;
-        case_table_edge(e, &c, &to);
-        name[e] = (((c & 1) * PATCH_SIDE + (c >> 1 & 1)) * PATCH_SIDE + (c >> 2)) * 3 + e / 4;
-    }
     uint16_t *const begin = (uint16_t *)p->triangles, *out = begin;
-    for (int di = 0; di < BRICK_EDGE; di++)
-        for (int dj = 0; dj < BRICK_EDGE; dj++) {
-            unsigned left = (unsigned)(crossing->slab[di] >> (8 * dj)) & 0xff;
+    for (int di = 0; di < BRICK_EDGE; di++) {
+        const uint16_t *a = p->inside.row[di], *b = p->inside.row[di + 1];
+        int dj = 0;
+        for (uint64_t slab = crossing->slab[di]; slab != 0; slab >>= 8, dj++) {
+            unsigned left = (unsigned)slab & 0xff;
             if (left == 0)
                 continue;
             /* Corners c = dx + 2 dy + 4 dz of the cube at dk: the eight bits from 4 dk on. */
-            const uint16_t *a = &p->inside.row[di][dj], *b = &p->inside.row[di + 1][dj];
-            uint64_t corners = spread_by_four(a[0]) | spread_by_four(b[0]) << 1 | spread_by_four(a[1]) << 2 |
-                               spread_by_four(b[1]) << 3;
+            uint64_t corners = spread_by_four(a[dj]) | spread_by_four(b[dj]) << 1 | spread_by_four(a[dj + 1]) << 2 |
+                               spread_by_four(b[dj + 1]) << 3;
+            const uint16_t *vertex = &p->vertex_of[(di * PATCH_SIDE + dj) * ROW_EDGES];
             for (; left; left &= left - 1) {
                 int dk = __builtin_ctz(left);
                 unsigned index = (unsigned)(corners >> (4 * dk)) & 0xff;
-                triangles_of(out, &p->vertex_of[((di * PATCH_SIDE + dj) * PATCH_SIDE + dk) * 3], t->edge[index], name,
-                             t->triangles[index]);
+                triangles_of(out, vertex + 3 * dk, t->name[index], t->triangles[index]);
                 out += 3 * t->triangles[index];
             }
         }
+    }
     p->triangle_count = (uint32_t)(out - begin) / 3;
+    p->crossing_count = brick_mask_count(crossing);
 }
 
-polygonizer_outcome LANES_NAMED(polygonizer_make)(polygonizer *p, const case_table *t, const brick_mask *crossing,
-                                                  const brick_mask *const aged[8], const patch *old)
+polygonizer_outcome LANES_NAMED(polygonizer_make)(polygonizer *p, const polygonizer_cases *t,
+                                                  const brick_mask *crossing, const brick_mask *const aged[8],
+                                                  const patch *old)
 {
     static const brick_mask nothing;
     const brick_mask *inside[8], *age[8];

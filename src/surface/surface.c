@@ -3,7 +3,6 @@
 
 #include "clay/capacity.h"
 #include "clay/digest.h"
-#include "surface/polygonizer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +19,7 @@ static patch *patch_at(const surface *s, uint32_t slot) { return (patch *)pool_a
 status surface_init(surface *s, uint32_t patches)
 {
     memset(s, 0, sizeof *s);
-    case_table_init(&s->cases);
+    polygonizer_cases_init(&s->cases);
     status r = avl_init(&s->tree, patches);
     if (r == STATUS_OK)
         r = pool_init(&s->patches, sizeof(patch), patches);
@@ -129,7 +128,7 @@ static bool vertices_take(patch *p, const polygonizer *made)
 {
     bool is_other = false;
     for (uint32_t n = 0; n < made->order_count; n++) {
-        uint32_t v = made->orders[n].vertex;
+        uint32_t v = made->order_vertex[n];
         is_other |= memcmp(&p->vertices[v], &made->vertices[v], sizeof *p->vertices) != 0;
         p->vertices[v] = made->vertices[v];
     }
@@ -155,7 +154,7 @@ static status patch_fill(patch *p, const polygonizer *made, polygonizer_outcome 
         memcpy(p->inside, made->inside.row, sizeof p->inside);
         memcpy(p->first, made->first, sizeof p->first);
         p->crossing = *crossing;
-        p->crossing_count = brick_mask_count(crossing);
+        p->crossing_count = made->crossing_count;
     }
     p->digest_known &= !*is_other;
     return r;

@@ -24,9 +24,9 @@
 
 #include "clay/clay.h"
 #include "surface/aged.h"
-#include "surface/case_table.h"
 #include "surface/examined.h"
 #include "surface/patch.h"
+#include "surface/polygonizer.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -39,7 +39,7 @@ typedef struct surface_link {
 } surface_link;
 
 typedef struct surface {
-    case_table cases;
+    polygonizer_cases cases;
     avl tree;           /* brick key -> patch slot */
     pool patches;       /* patch */
     surface_link *link; /* of brick ids */

@@ -173,12 +173,14 @@ inline std::string mesh_oracle_judge(const clay *c, const surface *s)
         if (index != 0 && index != 255)
             crossing[key_brick(cube)].push_back(cube);
     }
+    case_table cases;
+    case_table_init(&cases);
     std::ostringstream wrong;
     if (crossing.size() != s->patches.count)
         wrong << s->patches.count << " patches, expected " << crossing.size();
     for (const auto &one : crossing) {
         const patch *p = surface_find(s, one.first);
-        const std::string what = p ? mesh_oracle_patch(c, s->cases, *p, one.second) : "missing";
+        const std::string what = p ? mesh_oracle_patch(c, cases, *p, one.second) : "missing";
         if (!what.empty()) {
             wrong << what << " in patch " << one.first.i << "," << one.first.j << "," << one.first.k;
             break;

@@ -433,6 +433,27 @@ TEST_F(clay_piece, settled_empty_bricks_are_pruned)
     EXPECT_TRUE(clay_is_valid(&c));
 }
 
+TEST_F(clay_piece, knows_on_which_sides_of_the_surface_a_brick_is)
+{
+    write({1, 2, 3}, 1, 9);
+    brick *b = clay_brick(&c, clay_find(&c, {0, 0, 0}));
+    EXPECT_FALSE(b->has_inside);
+    EXPECT_TRUE(b->has_outside);
+    write({1, 2, 3}, POTENTIAL_ISO, 9);
+    EXPECT_TRUE(b->has_inside);
+    EXPECT_TRUE(b->has_outside);
+    for (int n = 0; n < BRICK_CORNERS; n++)
+        write({n >> 6, n >> 3 & 7, n & 7}, 2, 9);
+    EXPECT_TRUE(b->has_inside);
+    EXPECT_FALSE(b->has_outside);
+    EXPECT_TRUE(clay_is_valid(&c));
+    for (bool *side : {&b->has_inside, &b->has_outside}) {
+        *side = !*side;
+        EXPECT_FALSE(clay_is_valid(&c));
+        *side = !*side;
+    }
+}
+
 size_t bytes_held(const clay &c)
 {
     return pool_bytes(&c.bricks) + pool_bytes(&c.pages.of) + pool_bytes(&c.tree.nodes) + pool_bytes(&c.changes.images) +

@@ -11,6 +11,8 @@
 enum { AGED_PER_DIRTY = BRICK_NEIGHBOURS };
 /* Arrays grow to the next multiple: most remakings of a patch then fit where it lies. */
 enum { VERTEX_GRAIN = 32, TRIANGLE_GRAIN = 64 };
+/* Bricks whose memory is on its way while one is rebuilt. */
+enum { REBUILD_AHEAD = 16 };
 
 static patch *patch_at(const surface *s, uint32_t slot) { return (patch *)pool_at(&s->patches, slot); }
 
@@ -403,19 +405,12 @@ static bool may_cross(const clay *c, const brick *b, int down)
     return false;
 }
 
-/* Patches where nothing crosses any more make room first. */
-static void patches_sweep(surface *s, const clay *c, polygonizer *p)
+/* Closes the patches that were not made since. */
+static void patches_sweep(surface *s, uint64_t generation)
 {
-    for (uint32_t slot = 0; slot < surface_slots(s); slot++) {
-        brick_mask crossing;
-        if (!surface_patch(s, slot))
-            continue;
-        key at = patch_at(s, slot)->at;
-        polygonizer_look(p, c, at, clay_find(c, at));
-        polygonizer_crossing(p, &crossing);
-        if (brick_mask_is_empty(&crossing))
+    for (uint32_t slot = 0; slot < surface_slots(s); slot++)
+        if (surface_patch(s, slot) && patch_at(s, slot)->generation <= generation)
             patch_close(s, slot);
-    }
 }
 
 static status brick_rebuild(surface *s, const clay *c, key at, uint32_t brick_id, polygonizer *p,
@@ -426,6 +421,8 @@ static status brick_rebuild(surface *s, const clay *c, key at, uint32_t brick_id
     brick_examine(s, c, &e, p);
     if (counting)
         counts->treated += polygonizer_stored_cubes(p);
+    if (e.outcome == DO_CLOSE)
+        close_one(s, &e);
     if (e.outcome == DO_NOTHING)
         return STATUS_OK;
     if (e.outcome == DO_OPEN)
@@ -444,23 +441,62 @@ static status brick_rebuild(surface *s, const clay *c, key at, uint32_t brick_id
     return r;
 }
 
-status surface_rebuild(surface *s, const clay *c, surface_counts *counts_out)
+/* The brick's own patch, and those of the bricks below that it answers for. */
+static status bricks_rebuild(surface *s, const clay *c, uint32_t id, polygonizer *p, surface_counts *counts,
+                             bool counting)
 {
-    surface_counts counts = {0, 0, 0};
+    const brick *b = clay_brick(c, id);
+    status r = brick_rebuild(s, c, b->at, id, p, counts, counting);
+    for (int down = 1; down < 8 && r == STATUS_OK; down++)
+        if (answers_for(b, down) && (counting || may_cross(c, b, down)))
+            r = brick_rebuild(s, c, key_add(b->at, -(down >> 2), -(down >> 1 & 1), -(down & 1)), POOL_NONE, p, counts,
+                              counting);
+    return r;
+}
+
+/* Bricks lie where there was room: of those that come next the memory is asked for early. */
+static uint32_t bricks_next(const clay *c, avl_walk *w, bool *more, key *at, uint32_t *id, uint32_t ids[REBUILD_AHEAD])
+{
+    enum { LINE = 64 };
+    uint32_t count = 0;
+    for (; *more && count < REBUILD_AHEAD; *more = avl_next(w, at, id)) {
+        const char *b = (const char *)clay_brick(c, *id);
+        for (size_t n = 0; n < sizeof(brick); n += LINE)
+            __builtin_prefetch(b + n);
+        ids[count++] = *id;
+    }
+    return count;
+}
+
+static status all_rebuild(surface *s, const clay *c, surface_counts *counts, bool counting)
+{
     polygonizer p;
     avl_walk w;
     key at;
-    uint32_t id;
+    uint32_t id, ids[REBUILD_AHEAD], count;
+    status r = STATUS_OK;
+    bool more = avl_first(&w, &c->tree, &at, &id);
+    while (r == STATUS_OK && (count = bricks_next(c, &w, &more, &at, &id, ids)) > 0)
+        for (uint32_t n = 0; n < count && r == STATUS_OK; n++)
+            r = bricks_rebuild(s, c, ids[n], &p, counts, counting);
+    return r;
+}
+
+status surface_rebuild(surface *s, const clay *c, surface_counts *counts_out)
+{
+    surface_counts counts = {0, 0, 0};
+    const uint64_t generation = s->generation;
     status r = links_grow(s, c);
     if (r != STATUS_OK)
         return r;
-    patches_sweep(s, c, &p);
-    for (bool more = avl_first(&w, &c->tree, &at, &id); more && r == STATUS_OK; more = avl_next(&w, &at, &id))
-        for (int down = 0; down < 8 && r == STATUS_OK; down++)
-            if (down == 0 || (answers_for(clay_brick(c, id), down) &&
-                              (counts_out != NULL || may_cross(c, clay_brick(c, id), down))))
-                r = brick_rebuild(s, c, key_add(at, -(down >> 2), -(down >> 1 & 1), -(down & 1)),
-                                  down == 0 ? id : POOL_NONE, &p, &counts, counts_out != NULL);
+    r = all_rebuild(s, c, &counts, counts_out != NULL);
+    if (r == STATUS_POOL_FULL) { /* those that nothing is left of stood in the way */
+        patches_sweep(s, generation);
+        counts = (surface_counts){0, 0, 0};
+        r = all_rebuild(s, c, &counts, counts_out != NULL);
+    } else if (r == STATUS_OK) {
+        patches_sweep(s, generation);
+    }
     if (counts_out)
         *counts_out = counts;
     return r;

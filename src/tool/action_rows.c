@@ -226,24 +226,42 @@ bool LANES_NAMED(action_rows)(const action_rows_dab *d, action_rows_brick *b)
 
 /* --- the mean round a corner --- */
 
-/* Of each number and those one and two strides on: the whole block at once, ends of rows and all, is faster than row by
-   row; what means nothing there is never looked at. */
-VEC_INLINE void one_two_one(const float *restrict from, int stride, int count, float *restrict to)
+/* A row of a brick, or half of one where vectors are no longer. */
+enum { PIECE = VEC_LANES < 8 ? VEC_LANES : 8 };
+typedef float piece __attribute__((vector_size(PIECE * 4)));
+
+VEC_INLINE piece piece_load(const float *p)
 {
-    for (int n = 0; n < count; n++) {
-        float b = from[n + stride];
-        to[n] = ((from[n] + from[n + 2 * stride]) + (b + b)) * 0.25f;
+    piece v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+VEC_INLINE piece one_two_one(piece before, piece at, piece after) { return ((before + after) + (at + at)) * 0.25f; }
+
+/* Along k, then j: part of the eight rows of one plane of the apron, from its first row on. */
+VEC_INLINE void plane_mean(const float *apron, float *mean_out)
+{
+    piece along_k[ACTION_APRON_SIDE];
+    for (int j = 0; j < ACTION_APRON_SIDE; j++, apron += ACTION_APRON_SIDE)
+        along_k[j] = one_two_one(piece_load(apron), piece_load(apron + 1), piece_load(apron + 2));
+    for (int j = 0; j < BRICK_EDGE; j++) {
+        const piece mean = one_two_one(along_k[j], along_k[j + 1], along_k[j + 2]);
+        memcpy(mean_out + (size_t)j * 8, &mean, sizeof mean);
     }
 }
 
 /* Along k, then j, then i, in the order of additions that action.c's definition has. */
 void LANES_NAMED(action_rows_mean)(const float *apron, float mean_out[BRICK_CORNERS])
 {
-    enum { SIDE = ACTION_APRON_SIDE, PLANE = SIDE * SIDE, ALL = SIDE * PLANE };
-    float along_k[ALL - 2], along_j[ALL - 2 - 2 * SIDE], along_i[ALL - 2 - 2 * SIDE - 2 * PLANE];
-    one_two_one(apron, 1, ALL - 2, along_k);
-    one_two_one(along_k, SIDE, ALL - 2 - 2 * SIDE, along_j);
-    one_two_one(along_j, PLANE, ALL - 2 - 2 * SIDE - 2 * PLANE, along_i);
-    for (int row = 0; row < BRICK_ROWS; row++)
-        memcpy(mean_out + row * 8, along_i + (row >> 3) * PLANE + (row & 7) * SIDE, 8 * sizeof *mean_out);
+    enum { SIDE = ACTION_APRON_SIDE, PLANE = SIDE * SIDE };
+    float plane[SIDE][64];
+    for (int i = 0; i < SIDE; i++)
+        for (int k = 0; k < BRICK_EDGE; k += PIECE)
+            plane_mean(apron + (size_t)i * PLANE + k, plane[i] + k);
+    for (int i = 0; i < BRICK_EDGE; i++)
+        for (int n = 0; n < 64; n += VEC_LANES) {
+            const vec_f a = vec_load(plane[i] + n), b = vec_load(plane[i + 1] + n), c = vec_load(plane[i + 2] + n);
+            vec_store(mean_out + i * 64 + n, ((a + c) + (b + b)) * 0.25f);
+        }
 }

@@ -38,7 +38,7 @@ typedef struct brick {
     key at; /* brick key: its smallest corner divided by 8 */
     uint32_t neighbour[BRICK_NEIGHBOURS];
     brick_mask inside; /* corners at or over POTENTIAL_ISO */
-    bool has_inside, has_outside; /* is any corner, is any not? Of a brick that is not stored, none is */
+    bool has_inside, has_outside; /* is any corner inside, is any not? */
     uint64_t born;     /* number of its making: ids are used again, these are not */
     uint32_t stored;   /* corners above POTENTIAL_MIN */
     uint32_t image;    /* its image before the stroke (change.h), or POOL_NONE */

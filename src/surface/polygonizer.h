@@ -34,8 +34,9 @@ typedef struct polygonizer_bits {
     uint16_t row[PATCH_SIDE][PATCH_SIDE];
 } polygonizer_bits;
 
-/* Vertices to be made are ordered as words of bytes: the edge's smaller corner di, dj, dk, then its axis. */
-enum { POLYGONIZER_ORDERS_MAX = PATCH_VERTICES_MAX + 16 }; /* the last vector is filled up */
+/* A vertex to be made is ordered as a word of bytes: its edge's smaller corner di, dj, dk, then its axis. The last
+   vector of orders is filled up. */
+enum { POLYGONIZER_ORDERS_MAX = PATCH_VERTICES_MAX + 16 };
 
 typedef struct polygonizer {
     const clay *of;

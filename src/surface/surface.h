@@ -15,7 +15,7 @@
  * Owner:   the caller owns the struct; surface owns patches and their arrays. One surface follows one clay.
  * Errors:  STATUS_POOL_FULL / STATUS_NO_MEMORY: the surface is then partly updated and must be brought back by
  *          surface_update after the clay was put back (what it showed before fits), or by surface_rebuild.
- * Cost:    per brick looked at, some 200 ns; per patch that changes, 2 to 3 us. Counting the treated cubes costs eight
+ * Cost:    per brick looked at, some 200 ns; per patch that changes, some 2 us. Counting the treated cubes costs eight
  *          tree entries a brick.
  * Source:  000 section 3.2. We differ: a corner's change also ages the normals of edges at its six neighbours.
  */

@@ -3,9 +3,10 @@
  * What:    A tool, and one dab of it: the whole of paper 000 section 3.2 up to the surface. Corners under the tool are
  *          read, acted on and written back, brick by brick; the counts are the paper's.
  * Is not:  A stroke (station cuts those into dabs); the surface's update (surface.h); undo (history.h).
- * Shape:   tool_apply: walk -> which bricks -> act in scratch -> room? -> act in place -> settle. Bricks that are new,
- *          not yet imaged, or read by their neighbours (smooth, stamp) are acted on in scratch, from old values only;
- *          then room is asked for; only then are the others written, where they lie.
+ * Shape:   tool_apply: walk -> which bricks -> act aside -> room? -> act in place -> settle. Bricks that are new,
+ *          whose page others hold (pages.h), or that their neighbours read (smooth, stamp) are acted on aside, from
+ *          old values only, on a page that becomes theirs; then room is asked for; only then are the others written,
+ *          where they lie.
  * Units:   lattice steps; amounts in potential.
  * Owner:   the caller owns everything; scratch is kept between dabs to spare allocations.
  * Errors:  STATUS_BAD_POSE, STATUS_BAD_PARAMETER (amount negative, NaN or over TOOL_AMOUNT_MAX), STATUS_OUT_OF_RANGE,

@@ -50,6 +50,9 @@ typedef struct brick {
     brick_page *page;
 } brick;
 
+/* A mask of every corner, to begin one with. */
+#define BRICK_MASK_ALL {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}}
+
 /* Bits of a slab with dk 0, and with dk 7. */
 #define BRICK_K_FIRST 0x0101010101010101u
 #define BRICK_K_LAST 0x8080808080808080u

@@ -29,9 +29,12 @@
 /* Frozen clays at one time (freeze.h): one that is being saved, one that is being exported. */
 #define CAPACITY_FROZEN 2u
 
+/* Colours whose full bricks share a page (pages.h): a palette's worth. */
+#define CAPACITY_FULL_COLOURS 64u
+
 /* Pages: besides those of bricks, what images and frozen clays may still hold of bricks written since, those of the dab
    under way, and full ones kept for their colours. */
-#define CAPACITY_PAGES_MORE (CAPACITY_DAB_BRICKS + 64u)
+#define CAPACITY_PAGES_MORE (CAPACITY_DAB_BRICKS + CAPACITY_FULL_COLOURS)
 #define CAPACITY_PAGES(bricks) ((2u + CAPACITY_FROZEN) * (bricks) + CAPACITY_PAGES_MORE)
 
 #endif

@@ -459,7 +459,7 @@ static void images_forget(clay *c)
 /* The brick as its image has it; its marks were held back. */
 static void image_put_back(clay *c, const change_image *image)
 {
-    static const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    static const brick_mask all = BRICK_MASK_ALL;
     uint32_t id = clay_find(c, image->at);
     status s = STATUS_OK;
     if (image->page_id != POOL_NONE) {
@@ -481,8 +481,10 @@ void clay_change_revert(clay *c)
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t n = 0; n < change_count(&c->changes); n++) {
             const change_image *image = change_at(&c->changes, n);
-            if ((image->stored == 0) == (pass == 0) && (pass == 1 || clay_find(c, image->at) != POOL_NONE))
-                image_put_back(c, image);
+            const bool was_empty = image->stored == 0;
+            if (was_empty != (pass == 0) || (was_empty && clay_find(c, image->at) == POOL_NONE))
+                continue;
+            image_put_back(c, image);
         }
         clay_prune(c);
     }

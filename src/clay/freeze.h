@@ -7,9 +7,10 @@
  * Shape:   `still` is a clay for reading: nothing in it is dirty, nothing recorded; what takes a pointer to a clay that
  *          is not const is not for it, but for clay_digest.
  * Owner:   the caller owns the struct. freeze_begin and freeze_end belong to the thread that writes the clay; in
- *          between `still` belongs to whoever it was handed to.
+ *          between `still` belongs to whoever it was handed to. No brick may be open at the time.
  * Errors:  STATUS_POOL_FULL beyond CAPACITY_FROZEN at a time, STATUS_NO_MEMORY; nothing changes then.
- * Cost:    350 bytes copied a brick, some 3 ms at 20 million corners; later a page for every brick that is written.
+ * Cost:    350 bytes copied a brick, 3 to 11 ms at 20 million corners (fresh memory takes longest); later a page for
+ *          every brick that is written.
  */
 #ifndef GLAISE_CLAY_FREEZE_H
 #define GLAISE_CLAY_FREEZE_H

@@ -71,7 +71,8 @@ bool pages_is_full(const brick_page *page)
 uint32_t pages_fold(pages *p, uint32_t id)
 {
     const uint32_t rgba = pages_at(p, id)->rgba[0];
-    uint32_t *place = &p->full[(rgba * 0x9E3779B1u) >> 26]; /* Fibonacci hashing: the six highest bits */
+    /* Fibonacci hashing: the highest bits say which place. */
+    uint32_t *place = &p->full[(uint64_t)(rgba * 0x9E3779B1u) * CAPACITY_FULL_COLOURS >> 32];
     if (*place == id)
         return id;
     if (*place != POOL_NONE && pages_at(p, *place)->rgba[0] == rgba) {
@@ -94,7 +95,7 @@ bool pages_are_held(const pages *p, uint64_t known, bool or_more)
         held += p->holders[id] > 0;
         holds += p->holders[id];
     }
-    for (int n = 0; n < PAGES_FULL_COLOURS; n++)
+    for (uint32_t n = 0; n < CAPACITY_FULL_COLOURS; n++)
         known += p->full[n] != POOL_NONE;
     return held == p->of.count && (or_more ? holds >= known : holds == known);
 }

@@ -5,28 +5,27 @@
  * Is not:  Safe for several writers: holders are counted by the clay's own thread. Others may read a page that is held
  *          for them.
  * Shape:   a pool of brick_page; beside it, a count of holders for each. Full pages (every corner at POTENTIAL_MAX, all
- *          of one colour) are found by their colour in a table of PAGES_FULL_COLOURS places, which holds them too: a
- *          colour that falls on another's place takes it over.
+ *          of one colour) are found by their colour in a table of CAPACITY_FULL_COLOURS places, which holds them too:
+ *          a colour that falls on another's place takes it over.
  * Owner:   clay.
  * Errors:  STATUS_POOL_FULL / STATUS_NO_MEMORY; nothing changes then.
- * Cost:    all O(1). Inside a piece most bricks are full of one colour: those cost no page.
+ * Cost:    all O(1). A brick that is full of one colour, as many inside a piece are, costs no page.
  */
 #ifndef GLAISE_CLAY_PAGES_H
 #define GLAISE_CLAY_PAGES_H
 
 #include "clay/brick.h"
+#include "clay/capacity.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum { PAGES_FULL_COLOURS = 64 };
-
 typedef struct pages {
     pool of;
     uint32_t *holders; /* of page ids */
     uint32_t holders_room;
-    uint32_t full[PAGES_FULL_COLOURS]; /* page ids, POOL_NONE where none */
+    uint32_t full[CAPACITY_FULL_COLOURS]; /* page ids, POOL_NONE where none */
 } pages;
 
 STATUS_CHECKED status pages_init(pages *p, uint32_t limit);

@@ -326,7 +326,7 @@ static status get_bricks(reader *r, const checkpoint_facts *f, clay *fresh)
 /* What is about to go must be looked at again, and so must whatever was still waiting to be looked at. */
 static status mark_old(const clay *old, clay *fresh)
 {
-    const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    const brick_mask all = BRICK_MASK_ALL;
     status s = STATUS_OK;
     for (uint32_t n = 0; s == STATUS_OK && n < dirt_count(&old->dirty); n++)
         s = clay_mark(fresh, dirt_at(&old->dirty, n)->at, &dirt_at(&old->dirty, n)->corners);

@@ -75,7 +75,7 @@ static status cursor_write(const history *h, uint64_t cursor, uint64_t newest)
 
 static status mark_all(clay *c)
 {
-    const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    const brick_mask all = BRICK_MASK_ALL;
     avl_walk w;
     key at;
     uint32_t id;

@@ -36,13 +36,6 @@ static size_t brick_bytes(uint32_t corners)
 
 /* --- encoding --- */
 
-static uint32_t float_bits(float v)
-{
-    uint32_t bits;
-    memcpy(&bits, &v, sizeof bits);
-    return bits;
-}
-
 /* One side of a brick: potentials, then colours. */
 static uint8_t *put_side(uint8_t *to, const brick_page *p, const brick_mask *mask, lanes l)
 {
@@ -262,6 +255,13 @@ static bool goes_empty(const clay *c, const brick_record *b, int to)
 static bool has_gone(const clay *c, const brick_record *b, int to)
 {
     return clay_find(c, b->at) == POOL_NONE && stored_on(b, to) == 0;
+}
+
+static uint32_t float_bits(float v)
+{
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits;
 }
 
 /* Is every corner of the record what the `from` side says? */

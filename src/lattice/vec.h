@@ -87,7 +87,7 @@ VEC_INLINE vec_f vec_sqrt(vec_f v) { return (vec_f)_mm512_sqrt_ps((__m512)v); }
 /* Lanes that are not zero. */
 VEC_INLINE vec_m vec_any_u(vec_u v) { return _mm512_test_epi32_mask((__m512i)v, (__m512i)v); }
 VEC_INLINE vec_m vec_eq_u(vec_u a, vec_u b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
-/* The lanes of the bits, close together in the lowest places; what is above them may be anything. */
+/* The lanes of the bits, close together in the lowest places; what is above them may be anything. Not for plain C. */
 VEC_INLINE vec_u vec_close_up(vec_u v, uint32_t bits)
 {
     return (vec_u)_mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)v);

@@ -177,7 +177,7 @@ status sculpture_redo(sculpture *s) { return step_through(s, history_redo, histo
 
 status sculpture_duplicate(const sculpture *s, freeform *tool_out) { return freeform_init(tool_out, &s->clay); }
 
-static const brick_mask every_corner = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+static const brick_mask every_corner = BRICK_MASK_ALL;
 
 static status brick_set(clay *c, key at, const brick_page *page)
 {

@@ -67,12 +67,12 @@ opening *opening_begin(sculpture *piece, const byte_store &port, uint32_t ring, 
     o->port = port;
     o->expected = field_bytes(port);
     o->reading = errand_begin([o, ring, step_mm](const std::function<void(double)> &told) {
-        const byte_store metered = {o,        port_read,     port_write, port_size,
-                                    port_truncate, port_sync, port_rename, port_remove};
+        const byte_store metered = {o,         port_read,   port_write, port_size, port_truncate,
+                                    port_sync, port_rename, port_remove};
         o->told = told;
         o->outcome = sculpture_open(o->piece, &metered, CAPACITY_BRICKS, ring, step_mm, &o->finding);
         if (o->outcome == STATUS_OK)
-            o->piece->history.store = o->port;
+            o->piece->history.store = o->port; /* the opening will be gone */
         return std::string();
     });
     return o;

@@ -234,7 +234,7 @@ static status open_one(surface *s, aged_brick *e)
     return r;
 }
 
-static const brick_mask every_corner = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+static const brick_mask every_corner = BRICK_MASK_ALL;
 
 /* Reads clay and surface; writes the entry and its patch's arrays. */
 static void brick_renew(surface *s, const clay *c, aged_brick *e, polygonizer *p)

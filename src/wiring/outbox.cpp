@@ -32,25 +32,22 @@ void end(outbox_entry *e)
 
 } // namespace
 
-bool outbox_is_full(const outbox *o)
-{
-    const auto under_way = std::count_if(o->sent.begin(), o->sent.end(), [](const auto &e) { return e.writing; });
-    return under_way >= static_cast<ptrdiff_t>(CAPACITY_FROZEN);
-}
-
 void outbox_send(outbox *o, sculpture *piece, const std::string &path)
 {
-    if (outbox_is_full(o))
-        end(&*std::find_if(o->sent.begin(), o->sent.end(), [](const auto &e) { return e.writing; }));
+    const auto is_written = [](const outbox_entry &e) { return e.writing != nullptr; };
+    if (std::count_if(o->sent.begin(), o->sent.end(), is_written) >= ptrdiff_t{CAPACITY_FROZEN})
+        end(&*std::find_if(o->sent.begin(), o->sent.end(), is_written));
     outbox_entry e;
     e.file.path = path;
     e.moment = std::make_unique<still>();
     const status s = still_begin(e.moment.get(), piece);
-    if (s == STATUS_OK)
+    if (s == STATUS_OK) {
         e.writing =
             errand_begin([moment = e.moment.get(), path](const auto &told) { return write(*moment, path, told); });
-    else
+    } else {
         e.file.trouble = path + ": " + status_text(s);
+        e.moment.reset();
+    }
     o->sent.push_back(std::move(e));
 }
 

@@ -6,7 +6,7 @@
  * Owner:   the caller owns the struct and empties it (outbox_take) before the piece is closed.
  * Errors:  a sentence with the path, when it is taken.
  * Cost:    sending freezes the piece (clay/freeze.h: some milliseconds). With CAPACITY_FROZEN files under way it waits
- *          for the first: whoever must not wait looks at outbox_is_full.
+ *          for the first of them.
  */
 #ifndef GLAISE_WIRING_OUTBOX_H
 #define GLAISE_WIRING_OUTBOX_H
@@ -26,8 +26,8 @@ struct outbox_file {
 
 struct outbox_entry {
     outbox_file file;
-    std::unique_ptr<still> moment; /* none: the machine refused it */
-    errand *writing = nullptr;     /* none: it is over */
+    std::unique_ptr<still> moment; /* as long as it is written */
+    errand *writing = nullptr;     /* likewise */
 };
 
 struct outbox {
@@ -35,7 +35,6 @@ struct outbox {
 };
 
 void outbox_send(outbox *o, sculpture *piece, const std::string &path);
-bool outbox_is_full(const outbox *o);
 /* Of the first that was sent: is it done (also when there is none), and how far is it, 0..1? */
 bool outbox_is_done(const outbox *o);
 double outbox_part(const outbox *o);

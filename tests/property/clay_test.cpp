@@ -72,7 +72,7 @@ void write_bricks(pair &x, seeded &chance)
 /* Full of one colour, of few: such bricks share pages. */
 void fill_brick(pair &x, seeded &chance)
 {
-    static const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    static const brick_mask all = BRICK_MASK_ALL;
     const key at = key_brick(seeded_key(chance, -x.reach, x.reach));
     const uint32_t rgba = static_cast<uint32_t>(seeded_int(chance, 1, 3));
     uint32_t id;

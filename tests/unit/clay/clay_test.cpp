@@ -333,7 +333,7 @@ TEST_F(clay_piece, inside_follows_single_corners)
 TEST_F(clay_piece, inside_follows_closing_copying_and_reverting)
 {
     seeded chance = {6};
-    const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    const brick_mask all = BRICK_MASK_ALL;
     for (int round = 0; round < 20; round++) {
         if (round % 2)
             clay_change_begin(&c);

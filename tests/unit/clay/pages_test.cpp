@@ -112,12 +112,12 @@ TEST_F(clay_pages, more_colours_than_the_table_has_places)
         EXPECT_EQ(pages_at(&p, id[n])->rgba[0], 1000 + n) << "never another colour's";
         pages_give(&p, id[n]);
     }
-    EXPECT_LE(p.of.count, uint32_t{PAGES_FULL_COLOURS});
+    EXPECT_LE(p.of.count, CAPACITY_FULL_COLOURS);
 }
 
 void fill(clay *c, key at, uint32_t rgba)
 {
-    static const brick_mask all = {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}};
+    static const brick_mask all = BRICK_MASK_ALL;
     uint32_t id;
     ASSERT_EQ(clay_brick_open(c, at, &id), STATUS_OK);
     for (int n = 0; n < BRICK_CORNERS; n++) {

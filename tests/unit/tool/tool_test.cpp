@@ -202,6 +202,34 @@ TEST_F(tool_dabs, do_not_depend_on_what_the_scratch_held)
     }
 }
 
+/* A counted dab looks at all the air under the tool, another one only where clay can spread to: over blocks that end
+   where bricks end, on the faces of the tool's box and far inside it, and at corners that touch by a point. */
+TEST_F(tool_dabs, do_the_same_whether_counted_or_not)
+{
+    for (const action a : all_actions)
+        for (const key block : {key{0, 0, 0}, key{-1, 2, 1}, key{4, 0, 0}}) {
+            clay_clear(&c);
+            for (int n = 0; n < 2; n++)
+                for (int slot = 0; slot < BRICK_CORNERS; slot++)
+                    ASSERT_EQ(clay_write(&c, {8 * (block.i + n) + (slot >> 6), 8 * (block.j + n) + (slot >> 3 & 7),
+                                              8 * (block.k + n) + (slot & 7)}, 3, 9), STATUS_OK);
+            clay other;
+            ASSERT_EQ(clay_init(&other, 4000), STATUS_OK);
+            ASSERT_EQ(clay_copy(&other, &c), STATUS_OK);
+            const tool t = make(a);
+            const tool_dab d = dab_at(4, 4, 4, 40, 0.7, 5);
+            const uint32_t bricks = clay_brick_count(&c);
+            ASSERT_EQ(tool_apply(&t, &d, &c, &scratch, &counts), STATUS_OK);
+            ASSERT_EQ(tool_apply(&t, &d, &other, &scratch, nullptr), STATUS_OK);
+            EXPECT_EQ(clay_digest(&c), clay_digest(&other)) << action_name(a);
+            EXPECT_TRUE(clay_is_valid(&other));
+            if (a == ACTION_SMOOTH) {
+                EXPECT_GT(clay_brick_count(&c), bricks + 10) << "it spreads all round";
+            }
+            clay_finish(&other);
+        }
+}
+
 TEST_F(tool_dabs, apart_do_not_care_about_their_order)
 {
     for (action a : all_actions)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "platform/storage/storage.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -37,6 +38,8 @@ int storage_open(storage *s, const char *folder)
     int result = flock(s->folder_fd, LOCK_EX | LOCK_NB) == 0 ? 0 : -errno;
     if (result == 0 && made)
         result = parent_sync(s->folder_fd);
+    if (result == 0 && fsync(s->folder_fd) != 0 && errno != EROFS)
+        result = -errno;
     if (result != 0)
         storage_close(s);
     return result;
@@ -134,6 +137,8 @@ static int file_open(storage *s, const char *name, bool make, storage_file **fil
         const int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
         int fd = openat(s->folder_fd, name, flags);
         bool made = false;
+        if (fd < 0 && errno == EROFS)
+            fd = openat(s->folder_fd, name, (flags & ~O_RDWR) | O_RDONLY);
         if (fd < 0 && errno == ENOENT && make) {
             fd = openat(s->folder_fd, name, flags | O_CREAT | O_EXCL, FILE_MODE);
             made = fd >= 0;
@@ -157,17 +162,10 @@ static int file_open(storage *s, const char *name, bool make, storage_file **fil
 
 /* --- reading and writing --- */
 
-int storage_read(storage *s, const char *name, uint64_t offset, void *bytes, size_t n, size_t *got_out)
+static int fd_read(int fd, uint64_t offset, void *bytes, size_t n, size_t *got_out)
 {
-    storage_file *f;
-    *got_out = 0;
-    int result = file_open(s, name, false, &f);
-    if (result != 0)
-        return result == -ENOENT ? 0 : result;
-    if (offset > INT64_MAX - n)
-        return 0;
     while (*got_out < n) {
-        ssize_t got = pread(f->fd, (char *)bytes + *got_out, n - *got_out, (off_t)(offset + *got_out));
+        ssize_t got = pread(fd, (char *)bytes + *got_out, n - *got_out, (off_t)(offset + *got_out));
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
@@ -177,6 +175,25 @@ int storage_read(storage *s, const char *name, uint64_t offset, void *bytes, siz
         *got_out += (size_t)got;
     }
     return 0;
+}
+
+int storage_read(storage *s, const char *name, uint64_t offset, void *bytes, size_t n, size_t *got_out)
+{
+    storage_file *f = name_is_good(name) ? file_find(s, name) : NULL;
+    *got_out = 0;
+    if (offset > INT64_MAX - n)
+        return 0;
+    if (f && f->fd < 0) { /* spoilt: what was on the medium before still is */
+        int fd = openat(s->folder_fd, name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+        int read = fd < 0 ? -errno : fd_read(fd, offset, bytes, n, got_out);
+        if (fd >= 0)
+            close(fd);
+        return read;
+    }
+    int result = file_open(s, name, false, &f);
+    if (result != 0)
+        return result == -ENOENT ? 0 : result;
+    return fd_read(f->fd, offset, bytes, n, got_out);
 }
 
 int storage_write(storage *s, const char *name, uint64_t offset, const void *bytes, size_t n)
@@ -248,8 +265,10 @@ int storage_rename(storage *s, const char *from, const char *to)
     storage_file *f;
     if (!name_is_good(to))
         return -EINVAL;
-    int result = file_open(s, from, false, &f);
-    if (result == 0 && f->written)
+    f = name_is_good(from) ? file_find(s, from) : NULL;
+    const bool spoilt = f && f->fd < 0;
+    int result = spoilt ? 0 : file_open(s, from, false, &f);
+    if (result == 0 && !spoilt && f->written)
         result = file_sync(s, f);
     if (result != 0)
         return result;
@@ -274,4 +293,29 @@ int storage_remove(storage *s, const char *name)
     if (f)
         file_close(f);
     return 0;
+}
+
+int storage_list(storage *s, void (*take)(void *into, const char *name), void *into)
+{
+    int fd = openat(s->folder_fd, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *folder = fd < 0 ? NULL : fdopendir(fd);
+    if (!folder) {
+        int error = errno;
+        if (fd >= 0)
+            close(fd);
+        return -error;
+    }
+    for (;;) {
+        errno = 0; /* the end of the folder leaves it alone */
+        const struct dirent *entry = readdir(folder);
+        if (!entry)
+            break;
+        struct stat is;
+        if (name_is_good(entry->d_name) && fstatat(fd, entry->d_name, &is, AT_SYMLINK_NOFOLLOW) == 0 &&
+            S_ISREG(is.st_mode))
+            take(into, entry->d_name);
+    }
+    int result = -errno;
+    closedir(folder);
+    return result;
 }

@@ -15,7 +15,8 @@
  * Errors  0, or a negative errno. -EINVAL: not a name, or not a regular file. -EWOULDBLOCK: another storage holds
  *         the folder. Absence is a state where a function says so, else -ENOENT.
  *         After a failed sync Linux takes the lost pages for clean, and a second sync would succeed without them. So
- *         the file is spoilt: it answers -EIO to all that touches it until it is removed or replaced by a rename.
+ *         the file is spoilt: nothing is written to it or synced any more (-EIO) until it is removed or replaced by a
+ *         rename. It may be read, and renamed to be kept aside.
  * Cost    A sync is one fdatasync, and one fsync of the folder when the name is new; a rename one fsync of the folder.
  * Source  facts/devices.md section G1; rename(2), fsync(2).
  */
@@ -46,7 +47,8 @@ typedef struct storage {
     storage_file files[STORAGE_OPEN_MAX];
 } storage;
 
-/* Makes the folder if it is not there (its parent must be), and locks it. */
+/* Makes the folder if it is not there (its parent must be), locks it, and syncs it: names that an earlier storage left
+   are on the medium, or this fails. A folder on a medium that may only be read is opened all the same. */
 STORAGE_CHECKED int storage_open(storage *s, const char *folder);
 /* Syncs nothing. */
 void storage_close(storage *s);
@@ -64,6 +66,8 @@ STORAGE_CHECKED int storage_sync(storage *s, const char *name);
 STORAGE_CHECKED int storage_rename(storage *s, const char *from, const char *to);
 /* Absent: 0. Until the next sync or rename a power cut may bring it back. */
 STORAGE_CHECKED int storage_remove(storage *s, const char *name);
+/* Tells the name of every regular file that has a good one, in any order. */
+STORAGE_CHECKED int storage_list(storage *s, void (*take)(void *into, const char *name), void *into);
 
 #ifdef __cplusplus
 }

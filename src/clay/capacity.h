@@ -32,9 +32,10 @@
 /* Colours whose full bricks share a page (pages.h): a palette's worth. */
 #define CAPACITY_FULL_COLOURS 64u
 
-/* Pages: besides those of bricks, what images and frozen clays may still hold of bricks written since, those of the dab
-   under way, and full ones kept for their colours. */
+/* Pages: besides those of bricks, what images, frozen clays and deltas (delta.h: as many bricks as a sculpture may
+   have, in all that are not yet written down) may still hold of bricks written since, those of the dab under way, and
+   full ones kept for their colours. */
 #define CAPACITY_PAGES_MORE (CAPACITY_DAB_BRICKS + CAPACITY_FULL_COLOURS)
-#define CAPACITY_PAGES(bricks) ((2u + CAPACITY_FROZEN) * (bricks) + CAPACITY_PAGES_MORE)
+#define CAPACITY_PAGES(bricks) ((3u + CAPACITY_FROZEN) * (bricks) + CAPACITY_PAGES_MORE)
 
 #endif

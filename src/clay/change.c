@@ -32,7 +32,7 @@ status change_reserve(change *c, uint32_t more)
     return s == STATUS_OK ? pool_reserve(&c->index.nodes, more) : s;
 }
 
-status change_keep(change *c, pages *p, key at, const brick *b, uint32_t *image_out)
+status change_keep(change *c, pages *p, key at, uint32_t brick_id, const brick *b, uint32_t *image_out)
 {
     uint32_t id = avl_find(&c->index, at);
     if (id == POOL_NONE) {
@@ -53,6 +53,7 @@ status change_keep(change *c, pages *p, key at, const brick *b, uint32_t *image_
             pages_hold(p, b->page_id);
         }
     }
+    ((change_image *)pool_at(&c->images, id))->brick_id = brick_id;
     *image_out = id;
     return STATUS_OK;
 }

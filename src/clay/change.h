@@ -24,6 +24,7 @@ typedef struct change_image {
     key at;           /* brick key */
     uint32_t page_id; /* held; POOL_NONE: the brick was not stored */
     uint32_t stored;  /* as the brick had it */
+    uint32_t brick_id; /* where it is, if that still has this key */
     brick_mask inside;
 } change_image;
 
@@ -38,8 +39,8 @@ void change_finish(change *c);
 void change_clear(change *c); /* forgets the images, stops recording; their pages are the caller's to give */
 /* The next `more` new images will not be refused. */
 STATUS_CHECKED status change_reserve(change *c, uint32_t more);
-/* Image of the brick at `at` (b NULL: it is not stored), holding its page, unless there is one already. */
-STATUS_CHECKED status change_keep(change *c, pages *p, key at, const brick *b, uint32_t *image_out);
+/* Image of the brick at `at` (b NULL: it was not stored until now), holding its page, unless there is one already. */
+STATUS_CHECKED status change_keep(change *c, pages *p, key at, uint32_t brick_id, const brick *b, uint32_t *image_out);
 
 static inline uint32_t change_count(const change *c) { return c->images.count; }
 static inline const change_image *change_at(const change *c, uint32_t n)

@@ -211,7 +211,7 @@ static status image_keep(clay *c, uint32_t id, bool fresh)
     brick *b = clay_brick(c, id);
     if (!c->changes.recording || b->image != POOL_NONE)
         return STATUS_OK;
-    return change_keep(&c->changes, &c->pages, b->at, fresh ? NULL : b, &b->image);
+    return change_keep(&c->changes, &c->pages, b->at, id, fresh ? NULL : b, &b->image);
 }
 
 status clay_brick_turn(clay *c, key brick_at, uint32_t *id, uint32_t page_id)
@@ -538,8 +538,7 @@ uint64_t clay_digest(const clay *c)
             continue;
         seen++;
         if (!b->digest_known) {
-            int32_t k[3] = {b->at.i, b->at.j, b->at.k};
-            b->digest = digest_bytes(b->page, sizeof *b->page, digest_bytes(k, sizeof k, 0));
+            b->digest = digest_brick(b->at, b->page);
             b->digest_known = true;
         }
         sum += b->stored ? b->digest : 0;
@@ -574,7 +573,7 @@ static bool brick_is_valid(const clay *c, uint32_t id)
 /* Has every page as many holders as there are that know of it? Frozen clays are not asked. */
 static bool pages_are_valid(const clay *c)
 {
-    uint64_t known = c->bricks.count;
+    uint64_t known = c->bricks.count + c->cut;
     for (uint32_t n = 0; n < change_count(&c->changes); n++)
         known += change_at(&c->changes, n)->page_id != POOL_NONE;
     return pages_are_held(&c->pages, known, c->frozen > 0);

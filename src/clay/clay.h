@@ -41,6 +41,7 @@ typedef struct clay {
     const struct crew *crew; /* works on this clay by brick; NULL: the caller alone */
     lanes rows;       /* the vectors that row kernels use on this clay: the best there are, or what a test wants */
     uint32_t frozen;  /* how often (freeze.h) */
+    uint64_t cut;     /* holds on pages that deltas have (delta.h) */
     change changes; /* bricks as they were before the stroke under way */
     dirt dirty;     /* corners dirtied since the surface was last brought up to date */
 } clay;

@@ -8,14 +8,17 @@
 #ifndef GLAISE_CLAY_DIGEST_H
 #define GLAISE_CLAY_DIGEST_H
 
+#include "clay/brick.h"
+
 #include <stddef.h>
-#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 uint64_t digest_bytes(const void *bytes, size_t n, uint64_t seed);
+/* What a brick that stores a corner adds to clay_digest. */
+uint64_t digest_brick(key at, const brick_page *page);
 
 #ifdef __cplusplus
 }

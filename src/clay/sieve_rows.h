@@ -2,7 +2,7 @@
 /*
  * What:    Sifts a brick's 512 corners: which changed, which hold clay; and lays those of a mask close together, as
  *          files have them.
- * Is not:  A format (history's undo_file.h, checkpoint.h).
+ * Is not:  A format (history's record.h, checkpoint.h).
  * Shape:   512 words of 4 bytes, potentials or colours, in slot order; taken, those of the mask in the same order.
  * Errors:  None. All lanes give the same bytes.
  * Cost:    some 100 ns a brick: a fraction of what a hash of the bytes takes.

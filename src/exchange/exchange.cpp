@@ -121,17 +121,6 @@ struct clay_finisher {
     }
 };
 
-/* The version field lies where checkpoint.h draws it; checkpoint_facts leaves it out. */
-status version_of(checkpoint_source source, void *self, uint32_t *version_out)
-{
-    unsigned char bytes[4] = {};
-    size_t got = 0;
-    const status state = source(self, 8, bytes, sizeof bytes, &got);
-    *version_out = bytes[0] | static_cast<uint32_t>(bytes[1]) << 8 | static_cast<uint32_t>(bytes[2]) << 16 |
-                   static_cast<uint32_t>(bytes[3]) << 24;
-    return state;
-}
-
 std::string box_text(const clay &c, double step_mm)
 {
     const box b = clay_box(&c);
@@ -233,14 +222,11 @@ exchange_outcome exchange_info(checkpoint_source source, void *self)
         return outcome_of(state);
     checkpoint_trouble trouble = {};
     checkpoint_facts facts = {};
-    uint32_t version = 0;
     state = checkpoint_read(read.get(), &facts, source, self, &trouble);
-    if (state == STATUS_OK)
-        state = version_of(source, self, &version);
     if (state != STATUS_OK)
         return reading_outcome(state, trouble);
     std::string text = "glaise sculpture\n";
-    text += "version " + std::to_string(version) + "\n";
+    text += "version " + std::to_string(facts.version) + "\n";
     text += "step    " + number(facts.step_mm) + " mm\n";
     text += "bricks  " + std::to_string(clay_brick_count(read.get())) + "\n";
     text += "corners " + std::to_string(read->corners) + "\n";

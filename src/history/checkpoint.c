@@ -5,83 +5,46 @@
 #include "clay/sieve_rows.h"
 #include "history/byte_order.h"
 #include "history/preamble.h"
+#include "history/record.h"
 #include "history/sentence.h"
 
 #include <math.h>
 
 enum {
+    VERSION_AT = 8,
     STEP_AT = 16,
     SEQUENCE_AT = 24,
     DAB_AT = 32,
     BRICKS_AT = 40,
     DIGEST_AT = 48,
+    CURSOR_AT = 56,
+    TIP_AT = 64,
+    SEAL_AT = 72,
+    ZERO_AT = 80,
+    HEADER_BYTES_1 = 64,
     BRICK_HEAD_BYTES = 80,
     BRICK_COUNT_AT = 12,
     BRICK_MASK_AT = 16,
     CHECKSUM_BYTES = 8,
     CORNER_BYTES = 8,
     BRICK_BYTES_MAX = BRICK_HEAD_BYTES + BRICK_CORNERS * CORNER_BYTES + CHECKSUM_BYTES,
-    BLOCK_BYTES = 16384,
 };
 
 static const preamble header_preamble = {"glaise\r\n", CHECKPOINT_VERSION, CHECKPOINT_HEADER_BYTES};
+static const preamble header_preamble_1 = {"glaise\r\n", 1, HEADER_BYTES_1};
 
-/* --- the pages to write, in key order --- */
-
-typedef struct page_walk {
-    const clay *c;
-    avl_walk bricks, images;
-    bool more_bricks, more_images;
-    key brick_at, image_at;
-    uint32_t brick_id, image_id;
-} page_walk;
-
-static void page_walk_begin(page_walk *w, const clay *c, bool before)
-{
-    w->c = c;
-    w->more_bricks = avl_first(&w->bricks, &c->tree, &w->brick_at, &w->brick_id);
-    w->more_images = before && avl_first(&w->images, &c->changes.index, &w->image_at, &w->image_id);
-}
-
-/* An image hides the brick of the same key. */
-static const brick_page *page_walk_next(page_walk *w, key *at_out)
-{
-    if (!w->more_bricks && !w->more_images)
-        return NULL;
-    int order = !w->more_images ? -1 : !w->more_bricks ? 1 : key_compare(w->brick_at, w->image_at);
-    const brick_page *page;
-    if (order < 0) {
-        page = clay_brick(w->c, w->brick_id)->page;
-        *at_out = w->brick_at;
-    } else {
-        page = clay_image_page(w->c, w->image_id);
-        *at_out = w->image_at;
-    }
-    if (order <= 0)
-        w->more_bricks = avl_next(&w->bricks, &w->brick_at, &w->brick_id);
-    if (order >= 0)
-        w->more_images = avl_next(&w->images, &w->image_at, &w->image_id);
-    return page;
-}
+_Static_assert((int)CHECKPOINT_SLACK_BYTES >= (int)SIEVE_ROWS_SLACK_BYTES, "vectors are written whole");
 
 /* --- writing --- */
 
-typedef struct writer {
-    checkpoint_sink sink;
-    void *self;
-    lanes rows;
-    size_t used;
-    uint8_t block[BLOCK_BYTES + SIEVE_ROWS_SLACK_BYTES];
-} writer;
-
-static status flush(writer *w)
+static status flush(checkpoint_writer *w)
 {
     size_t n = w->used;
     w->used = 0;
     return n > 0 ? w->sink(w->self, w->block, n) : STATUS_OK;
 }
 
-static status put_header(writer *w, const checkpoint_facts *facts)
+static void put_header(checkpoint_writer *w, const checkpoint_facts *facts)
 {
     uint8_t *h = w->block;
     byte_order_put_double(h + STEP_AT, facts->step_mm);
@@ -89,18 +52,21 @@ static status put_header(writer *w, const checkpoint_facts *facts)
     byte_order_put_u64(h + DAB_AT, facts->dab);
     byte_order_put_u64(h + BRICKS_AT, facts->bricks);
     byte_order_put_u64(h + DIGEST_AT, facts->digest);
+    byte_order_put_u64(h + CURSOR_AT, facts->cursor);
+    byte_order_put_u64(h + TIP_AT, facts->tip);
+    byte_order_put_u64(h + SEAL_AT, facts->seal);
+    byte_order_put_u64(h + ZERO_AT, 0);
     preamble_seal(&header_preamble, h);
     w->used = CHECKPOINT_HEADER_BYTES;
-    return STATUS_OK;
 }
 
-static status put_brick(writer *w, key at, const brick_page *p)
+static status put_brick(checkpoint_writer *w, key at, const brick_page *p)
 {
     brick_mask mask;
-    uint32_t stored = sieve_rows_stored(p, &mask, w->rows);
+    uint32_t stored = sieve_rows_stored(p, &mask, w->c->rows);
     if (stored == 0)
         return STATUS_OK;
-    if (BLOCK_BYTES - w->used < BRICK_BYTES_MAX) {
+    if (CHECKPOINT_BLOCK_BYTES - w->used < BRICK_BYTES_MAX) {
         status s = flush(w);
         if (s != STATUS_OK)
             return s;
@@ -112,47 +78,52 @@ static status put_brick(writer *w, key at, const brick_page *p)
     byte_order_put_u32(b + BRICK_COUNT_AT, stored);
     for (int n = 0; n < BRICK_EDGE; n++)
         byte_order_put_u64(b + BRICK_MASK_AT + 8 * n, mask.slab[n]);
-    uint8_t *end = sieve_rows_take(b + BRICK_HEAD_BYTES, p->potential, &mask, w->rows);
-    (void)sieve_rows_take(end, p->rgba, &mask, w->rows);
+    uint8_t *end = sieve_rows_take(b + BRICK_HEAD_BYTES, p->potential, &mask, w->c->rows);
+    (void)sieve_rows_take(end, p->rgba, &mask, w->c->rows);
     size_t vouched = BRICK_HEAD_BYTES + (size_t)stored * CORNER_BYTES;
     byte_order_put_u64(b + vouched, digest_bytes(b, vouched, 0));
     w->used += vouched + CHECKSUM_BYTES;
     return STATUS_OK;
 }
 
-static status write_pages(const clay *c, checkpoint_facts facts, bool before, checkpoint_sink sink, void *self)
+void checkpoint_writer_begin(checkpoint_writer *w, const clay *c, const checkpoint_facts *facts, checkpoint_sink sink,
+                             void *self)
 {
-    page_walk walk;
-    key at;
-    const brick_page *p;
+    checkpoint_facts f = *facts;
     brick_mask mask;
-    facts.bricks = 0;
-    page_walk_begin(&walk, c, before);
-    while ((p = page_walk_next(&walk, &at)) != NULL)
-        facts.bricks += sieve_rows_stored(p, &mask, c->rows) > 0;
+    avl_walk walk;
+    key at;
+    uint32_t id;
+    f.bricks = 0;
+    for (bool more = avl_first(&walk, &c->tree, &at, &id); more; more = avl_next(&walk, &at, &id))
+        f.bricks += sieve_rows_stored(clay_brick(c, id)->page, &mask, c->rows) > 0;
+    w->c = c;
+    w->sink = sink;
+    w->self = self;
+    put_header(w, &f);
+    w->more = avl_first(&w->walk, &c->tree, &w->at, &w->id);
+}
 
-    writer w;
-    w.sink = sink;
-    w.self = self;
-    w.rows = c->rows;
-    status s = put_header(&w, &facts);
-    page_walk_begin(&walk, c, before);
-    while (s == STATUS_OK && (p = page_walk_next(&walk, &at)) != NULL)
-        s = put_brick(&w, at, p);
-    return s == STATUS_OK ? flush(&w) : s;
+status checkpoint_writer_step(checkpoint_writer *w, size_t bytes, bool *done_out)
+{
+    status s = STATUS_OK;
+    size_t put = 0;
+    while (s == STATUS_OK && w->more && put < bytes) {
+        const size_t before = w->used;
+        s = put_brick(w, w->at, clay_brick(w->c, w->id)->page);
+        put += w->used > before ? w->used - before : w->used;
+        w->more = avl_next(&w->walk, &w->at, &w->id);
+    }
+    *done_out = !w->more;
+    return s == STATUS_OK && !w->more ? flush(w) : s;
 }
 
 status checkpoint_write(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink, void *self)
 {
-    checkpoint_facts f = *facts;
-    f.digest = clay_digest(c);
-    return write_pages(c, f, false, sink, self);
-}
-
-status checkpoint_write_before(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink, void *self)
-{
-    assert(c->changes.recording);
-    return write_pages(c, *facts, true, sink, self);
+    checkpoint_writer w;
+    bool done = false;
+    checkpoint_writer_begin(&w, c, facts, sink, self);
+    return checkpoint_writer_step(&w, SIZE_MAX, &done);
 }
 
 /* --- reading --- */
@@ -163,7 +134,7 @@ typedef struct reader {
     checkpoint_trouble *trouble;
     uint64_t offset; /* in the file, of block[at] */
     size_t at, have; /* block[at..have) is read and not yet taken */
-    uint8_t block[BLOCK_BYTES];
+    uint8_t block[CHECKPOINT_BLOCK_BYTES];
 } reader;
 
 static void reader_begin(reader *r, checkpoint_source source, void *self, checkpoint_trouble *trouble)
@@ -203,7 +174,7 @@ static status reader_fill(reader *r, size_t n)
     r->at = 0;
     while (r->have < n) {
         size_t got = 0;
-        status s = r->source(r->self, r->offset + r->have, r->block + r->have, BLOCK_BYTES - r->have, &got);
+        status s = r->source(r->self, r->offset + r->have, r->block + r->have, CHECKPOINT_BLOCK_BYTES - r->have, &got);
         if (s != STATUS_OK)
             return refuse(r, s, r->offset + r->have, "readable bytes");
         if (got == 0)
@@ -219,26 +190,33 @@ static status get_header(reader *r, checkpoint_facts *f)
     if (s != STATUS_OK)
         return s;
     const uint8_t *h = reader_bytes(r);
+    const bool first_version = reader_has(r) >= HEADER_BYTES_1 && byte_order_get_u32(h + VERSION_AT) == 1;
     preamble_trouble why;
-    s = preamble_check(&header_preamble, h, reader_has(r), &why);
+    s = preamble_check(first_version ? &header_preamble_1 : &header_preamble, h, reader_has(r), &why);
     if (s != STATUS_OK)
         return refuse(r, s, why.offset, why.expected);
+    *f = (checkpoint_facts){.version = byte_order_get_u32(h + VERSION_AT)};
     f->step_mm = byte_order_get_double(h + STEP_AT);
     f->sequence = byte_order_get_u64(h + SEQUENCE_AT);
     f->dab = byte_order_get_u64(h + DAB_AT);
     f->bricks = byte_order_get_u64(h + BRICKS_AT);
     f->digest = byte_order_get_u64(h + DIGEST_AT);
+    if (first_version) {
+        f->cursor = f->tip = f->sequence;
+        f->sequence = 0;
+    } else {
+        f->cursor = byte_order_get_u64(h + CURSOR_AT);
+        f->tip = byte_order_get_u64(h + TIP_AT);
+        f->seal = byte_order_get_u64(h + SEAL_AT);
+    }
+    if (f->sequence > RECORD_STROKE_MAX || f->tip > RECORD_STROKE_MAX || f->cursor > f->tip)
+        return refuse(r, STATUS_CORRUPT, SEQUENCE_AT, "the number of a record, and a cursor up to the tip");
+    if (!first_version && byte_order_get_u64(h + ZERO_AT) != 0)
+        return refuse(r, STATUS_CORRUPT, ZERO_AT, "zero");
     if (!isfinite(f->step_mm) || f->step_mm <= 0)
         return refuse(r, STATUS_CORRUPT, STEP_AT, "a finite step above zero");
-    reader_take(r, CHECKPOINT_HEADER_BYTES);
+    reader_take(r, first_version ? HEADER_BYTES_1 : CHECKPOINT_HEADER_BYTES);
     return STATUS_OK;
-}
-
-static bool brick_in_range(key at)
-{
-    const key lowest = {KEY_MIN, KEY_MIN, KEY_MIN}, highest = {KEY_MAX, KEY_MAX, KEY_MAX};
-    const box storable = {key_brick(lowest), key_brick(highest)};
-    return box_contains(storable, at);
 }
 
 /* Moves the brick's corners to an empty page; false at a potential that no stored corner can have. */
@@ -300,7 +278,7 @@ static status get_bricks(reader *r, const checkpoint_facts *f, clay *fresh)
         status s = get_brick_head(r, &at, &mask, &stored);
         if (s != STATUS_OK)
             return s;
-        if (!brick_in_range(at))
+        if (!key_brick_in_range(at))
             return refuse(r, STATUS_CORRUPT, r->offset, "a brick key within the lattice");
         if (n > 0 && key_compare(last, at) >= 0)
             return refuse(r, STATUS_CORRUPT, r->offset, "a brick key above the one before");

@@ -2,17 +2,21 @@
 /*
  * What:    The whole field as bytes: the native sculpture file, and what history rests on. One format for both.
  * Is not:  A mesh (exchange); the ring of undo-files (history.h).
- * Shape:   little-endian, version 1:
+ * Shape:   little-endian, version 2:
  *            offset size
  *                 0    8  "glaise\r\n"
- *                 8    4  version (1)
- *                12    4  header bytes (64; preamble.h says what later versions keep)
+ *                 8    4  version (2)
+ *                12    4  header bytes (96; preamble.h says what later versions keep)
  *                16    8  step of the lattice, mm, IEEE double
- *                24    8  sequence: number of the last stroke in it (0: none)
+ *                24    8  sequence: number of the last record in it (0: none)
  *                32    8  dab number
  *                40    8  bricks that follow
  *                48    8  clay_digest of the whole
- *                56    8  XXH3-64 of bytes 0..55
+ *                56    8  cursor: the stroke after which the clay stands (0: none)
+ *                64    8  tip: the stroke that redo leads to (the cursor when there is none)
+ *                72    8  the last eight bytes of that last record's header (record.h)
+ *                80    8  0
+ *                88    8  XXH3-64 of bytes 0..87
  *          then per brick, in key order:
  *                 0   12  brick key: i, j, k as int32
  *                12    4  stored corners n (1..512)
@@ -21,12 +25,14 @@
  *            80+4n    4n  RGBA8
  *            80+8n     8  XXH3-64 of bytes 0..80+8n-1 of this brick
  *          and nothing after the last brick. The same field always gives the same bytes.
+ *          Version 1 had a header of 64 bytes, of which 0..55 are those of version 2, then its checksum; its sequence
+ *          was the stroke after which the clay stood.
  * Units:   the step in millimetres, keys in lattice steps.
  * Owner:   the caller gives a sink or a source; nothing is kept.
  * Errors:  STATUS_CORRUPT, STATUS_NEWER with the place and what was expected in `trouble`; STATUS_POOL_FULL when the
  *          clay's limit is below what the file holds; the clay is then untouched (reading goes into a clay of its own
  *          first). Hostile counts never allocate more than the bytes could hold.
- * Cost:    one pass through a block of 16 KiB on the stack. Reading holds the old clay and the new until the end.
+ * Cost:    one pass through a block of 16 KiB. Reading holds the old clay and the new until the end.
  * Source:  000 section 2 ("an internal format which writes the whole field").
  */
 #ifndef GLAISE_HISTORY_CHECKPOINT_H
@@ -38,14 +44,21 @@
 extern "C" {
 #endif
 
-enum { CHECKPOINT_VERSION = 1, CHECKPOINT_HEADER_BYTES = 64 };
+enum {
+    CHECKPOINT_VERSION = 2,
+    CHECKPOINT_HEADER_BYTES = 96,
+    CHECKPOINT_BLOCK_BYTES = 16384,
+    CHECKPOINT_SLACK_BYTES = 64,
+};
 
 typedef struct checkpoint_facts {
+    uint32_t version; /* filled when read */
     double step_mm;
-    uint64_t sequence;
+    uint64_t sequence, cursor, tip;
+    uint64_t seal;   /* of the record `sequence` */
     uint64_t dab;
     uint64_t bricks; /* filled when read */
-    uint64_t digest; /* filled when read; checkpoint_write_before is given it */
+    uint64_t digest;
 } checkpoint_facts;
 
 /* Where and why reading stopped. */
@@ -59,10 +72,27 @@ typedef status (*checkpoint_sink)(void *self, const void *bytes, size_t n);
 /* Gives up to n bytes from offset, fewer only at the end. */
 typedef status (*checkpoint_source)(void *self, uint64_t offset, void *bytes, size_t n, size_t *got_out);
 
+/* Writing bit by bit. The clay does not change until it is done: it is a still (clay/freeze.h), or nobody works on it
+   meanwhile. The caller owns the struct; nothing in it wants finishing. */
+typedef struct checkpoint_writer {
+    const clay *c;
+    avl_walk walk;
+    key at;
+    uint32_t id;
+    bool more;
+    checkpoint_sink sink;
+    void *self;
+    size_t used;
+    uint8_t block[CHECKPOINT_BLOCK_BYTES + CHECKPOINT_SLACK_BYTES];
+} checkpoint_writer;
+
+/* facts->digest is clay_digest; bricks are counted here. O(bricks). */
+void checkpoint_writer_begin(checkpoint_writer *w, const clay *c, const checkpoint_facts *facts, checkpoint_sink sink,
+                             void *self);
+/* Writes `bytes` or little more; *done_out after the last of them. */
+STATUS_CHECKED status checkpoint_writer_step(checkpoint_writer *w, size_t bytes, bool *done_out);
+/* All at once. */
 STATUS_CHECKED status checkpoint_write(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink, void *self);
-/* The clay as it was when the change now being recorded began; facts->digest is clay_digest as it was then. */
-STATUS_CHECKED status checkpoint_write_before(const clay *c, const checkpoint_facts *facts, checkpoint_sink sink,
-                                              void *self);
 /* Into an initialised clay, whose content is replaced whole or not at all (its limit stays). Every corner that is
    stored, and every brick that was, is marked dirty. Nothing may be recorded at this time. */
 STATUS_CHECKED status checkpoint_read(clay *c, checkpoint_facts *facts_out, checkpoint_source source, void *self,

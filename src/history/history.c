@@ -1,77 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "history/history.h"
 
-#include "history/cursor_file.h"
+#include "clay/digest.h"
+#include "clay/sieve_rows.h"
 #include "history/recovery.h"
-#include "history/undo_ring.h"
-#include "history/whole_file.h"
+#include "history/sentence.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
-#define FIELD_TEMPORARY HISTORY_FIELD_NAME ".new"
-
-/* A stroke over the whole sculpture needs hundreds of megabytes once; the next hundred strokes do not. */
-enum { BUFFER_KEPT_BYTES = 16 * 1024 * 1024 };
-
-static void buffer_shrink(history *h)
-{
-    if (h->buffer.room > BUFFER_KEPT_BYTES)
-        byte_buffer_finish(&h->buffer);
-}
-
-/* --- checkpoint and cursor --- */
-
-typedef struct field_sink {
-    const byte_store *store;
-    uint64_t offset;
-} field_sink;
-
-static status field_put(void *self, const void *bytes, size_t n)
-{
-    field_sink *f = (field_sink *)self;
-    status s = f->store->write(f->store->self, FIELD_TEMPORARY, f->offset, bytes, n);
-    f->offset += n;
-    return s;
-}
-
-status history_checkpoint(history *h, const clay *c)
-{
-    const byte_store *store = &h->store;
-    const checkpoint_facts facts = {
-        .step_mm = h->step_mm, .sequence = h->cursor, .dab = h->dab, .digest = h->digest};
-    field_sink sink = {store, 0};
-    status s = store->remove(store->self, FIELD_TEMPORARY);
-    if (s == STATUS_OK && c->changes.recording) {
-        s = checkpoint_write_before(c, &facts, field_put, &sink);
-    } else if (s == STATUS_OK) {
-        assert(clay_digest(c) == h->digest); /* or the clay was changed behind history's back */
-        s = checkpoint_write(c, &facts, field_put, &sink);
-    }
-    if (s == STATUS_OK)
-        s = store->sync(store->self, FIELD_TEMPORARY);
-    if (s != STATUS_OK)
-        return s;
-    h->checkpoint_known = false;
-    s = store->rename(store->self, FIELD_TEMPORARY, HISTORY_FIELD_NAME);
-    if (s == STATUS_OK) {
-        h->checkpoint = h->cursor;
-        h->checkpoint_known = true;
-    }
-    return s;
-}
-
-static status cursor_write(const history *h, uint64_t cursor, uint64_t newest)
-{
-    const cursor_file f = {.oldest = h->oldest,
-                           .cursor = cursor,
-                           .newest = newest,
-                           .dab = h->dab,
-                           .step_mm = h->step_mm,
-                           .ring = h->ring};
-    return cursor_file_write(&f, &h->store);
-}
+/* A record's bricks take this much at most, and a quarter of an undo-file: what does not fit its end is little. */
+enum { RECORD_BYTES_MOST = 256 * 1024 };
 
 /* --- opening and closing --- */
+
+static bool settings_are_good(const history_settings *s, double step_mm)
+{
+    return s->strokes >= 1 && s->strokes <= HISTORY_STROKES_MAX && s->file_bytes >= RING_FILE_BYTES_MIN &&
+           s->file_bytes % RECORD_BLOCK_BYTES == 0 && s->file_bytes <= s->budget_bytes && isfinite(step_mm) &&
+           step_mm > 0;
+}
 
 static status mark_all(clay *c)
 {
@@ -86,23 +35,19 @@ static status mark_all(clay *c)
     return s;
 }
 
-status history_open(history *h, byte_store store, uint32_t ring, double step_mm, clay *c,
+status history_open(history *h, byte_store store, const history_settings *settings, double step_mm, clay *c,
                     history_finding *finding_out)
 {
     assert(clay_brick_count(c) == 0 && !c->changes.recording);
     finding_out->text[0] = '\0';
-    *h = (history){.store = store, .ring = ring, .step_mm = step_mm, .oldest = 1, .checkpoint_known = true};
-    if (ring < 1 || ring > HISTORY_RING_MAX || !isfinite(step_mm) || step_mm <= 0)
+    *h = (history){.store = store, .settings = *settings, .step_mm = step_mm};
+    if (!settings_are_good(settings, step_mm))
         return STATUS_BAD_PARAMETER;
-    recovery_writes to_write;
-    status s = recovery_run(h, c, &to_write, finding_out);
-    if (s == STATUS_OK && to_write.field)
-        s = history_checkpoint(h, c);
-    if (s == STATUS_OK && to_write.cursor)
-        s = cursor_write(h, h->cursor, h->newest);
+    status s = ring_open(&h->ring, &h->store);
+    if (s == STATUS_OK)
+        s = recovery_run(h, c, finding_out);
     if (s == STATUS_OK)
         s = mark_all(c);
-    buffer_shrink(h);
     if (s != STATUS_OK) {
         clay_clear(c);
         history_close(h);
@@ -110,131 +55,324 @@ status history_open(history *h, byte_store store, uint32_t ring, double step_mm,
     return s;
 }
 
-void history_close(history *h) { byte_buffer_finish(&h->buffer); }
-
-/* --- a new stroke --- */
-
-/* H1: may the file of stroke n be replaced, and strokes after the cursor be forgotten? */
-static bool checkpoint_is_due(const history *h, uint64_t n)
+static void held_free(history_held *first)
 {
-    return !h->checkpoint_known || h->checkpoint > h->cursor || (n > h->ring && n - h->ring > h->checkpoint);
-}
-
-static status stroke_write(history *h, const clay *c, const undo_file_facts *facts)
-{
-    uint64_t n = facts->stroke;
-    status s = checkpoint_is_due(h, n) ? history_checkpoint(h, c) : STATUS_OK;
-    if (s == STATUS_OK)
-        s = whole_file_write(&h->store, UNDO_RING_TEMPORARY, h->buffer.bytes, h->buffer.size);
-    if (s != STATUS_OK)
-        return s;
-    /* From here on, even if the rename fails, what it may have replaced is no longer counted on. */
-    h->newest = h->cursor;
-    if (n >= h->oldest + h->ring)
-        h->oldest = n - h->ring + 1;
-    undo_ring_name name = undo_ring_name_of(h->ring, n);
-    s = h->store.rename(h->store.self, UNDO_RING_TEMPORARY, name.text);
-    if (s == STATUS_OK)
-        s = cursor_write(h, n, n);
-    if (s == STATUS_OK) {
-        h->cursor = h->newest = n;
-        h->digest = facts->digest_after;
+    while (first) {
+        history_held *next = first->next;
+        free(first);
+        first = next;
     }
-    return s;
 }
 
-status history_commit(history *h, clay *c)
+void history_close(history *h)
 {
-    assert(c->changes.recording);
-    undo_file_facts facts = {.stroke = h->cursor + 1,
-                             .digest_before = h->digest,
-                             .digest_after = clay_digest(c),
-                             .dab = h->dab,
-                             .ring = h->ring};
-    status s = undo_file_encode(c, &facts, &h->buffer);
-    if (s == STATUS_OK && facts.corners > 0)
-        s = stroke_write(h, c, &facts);
-    buffer_shrink(h);
-    if (s == STATUS_OK)
-        clay_change_end(c);
-    return s;
+    held_free(h->held_first);
+    h->held_first = h->held_last = NULL;
+    free(h->writer);
+    h->writer = NULL;
+    tree_finish(&h->tree);
+    ring_close(&h->ring);
 }
 
-/* --- back and forth --- */
-
-/* Stroke n cannot be gone over: history ends before it, or after it. */
-static status end_at(history *h, const clay *c, uint64_t n, undo_file_direction direction)
+status history_room(const history *h)
 {
-    bool leads_to_cursor = direction == UNDO_FILE_BACK ? h->checkpoint < n : h->checkpoint >= n;
-    status s = leads_to_cursor || !h->checkpoint_known ? history_checkpoint(h, c) : STATUS_OK;
-    uint64_t last = direction == UNDO_FILE_BACK ? n : h->newest;
-    for (uint64_t stroke = n; s == STATUS_OK && stroke <= last; stroke++)
-        s = whole_file_set_aside(&h->store, undo_ring_name_of(h->ring, stroke).text);
-    if (s != STATUS_OK)
-        return s;
-    if (direction == UNDO_FILE_BACK)
-        h->oldest = n + 1;
-    else
-        h->newest = n - 1;
-    s = cursor_write(h, h->cursor, h->newest);
-    return s == STATUS_OK ? STATUS_CORRUPT : s;
-}
-
-/* Goes over stroke n; after STATUS_OK the step is recorded as a change. */
-static status go_over(history *h, clay *c, uint64_t n, undo_file_direction direction, uint64_t *digest_out)
-{
-    bool exists;
-    undo_file_facts f;
-    preamble_trouble trouble;
-    status s = whole_file_read(&h->store, undo_ring_name_of(h->ring, n).text, &h->buffer, &exists);
-    if (s == STATUS_OK && !exists)
-        s = STATUS_CORRUPT;
-    if (s == STATUS_OK)
-        s = undo_file_check(&f, h->buffer.bytes, h->buffer.size, &trouble);
-    if (s != STATUS_OK)
-        return s;
-    uint64_t from = direction == UNDO_FILE_BACK ? f.digest_after : f.digest_before;
-    uint64_t to = direction == UNDO_FILE_BACK ? f.digest_before : f.digest_after;
-    if (f.stroke != n || from != h->digest)
-        return STATUS_CORRUPT;
-    s = undo_file_apply(c, h->buffer.bytes, h->buffer.size, direction, &trouble);
-    if (s == STATUS_OK && clay_digest(c) != to) {
-        clay_change_revert(c);
-        s = STATUS_CORRUPT;
-    }
-    *digest_out = to;
-    return s;
-}
-
-static status step(history *h, clay *c, undo_file_direction direction)
-{
-    assert(!c->changes.recording);
-    uint64_t n = direction == UNDO_FILE_BACK ? h->cursor : h->cursor + 1;
-    uint64_t there = direction == UNDO_FILE_BACK ? n - 1 : n;
-    uint64_t digest = 0;
-    status s = go_over(h, c, n, direction, &digest);
-    buffer_shrink(h);
-    if (s == STATUS_CORRUPT)
-        return end_at(h, c, n, direction);
-    if (s != STATUS_OK)
-        return s;
-    s = cursor_write(h, there, h->newest);
-    if (s != STATUS_OK) {
-        clay_change_revert(c);
-        return s;
-    }
-    clay_change_end(c);
-    h->cursor = there;
-    h->digest = digest;
+    if (h->medium == HISTORY_MEDIUM_FULL)
+        return STATUS_NO_SPACE;
+    if (h->held_bytes > h->settings.held_bytes)
+        return h->medium == HISTORY_MEDIUM_GOOD ? STATUS_NO_MEMORY : STATUS_IO;
     return STATUS_OK;
 }
 
-status history_undo(history *h, clay *c)
+/* --- what was done, as records in memory --- */
+
+static uint64_t brick_digest(key at, const brick_page *page, lanes rows)
 {
-    return history_can_undo(h) ? step(h, c, UNDO_FILE_BACK) : STATUS_HISTORY_ENDS;
+    brick_mask mask;
+    return page && sieve_rows_stored(page, &mask, rows) > 0 ? digest_brick(at, page) : 0;
 }
 
-status history_redo(history *h, clay *c)
+static size_t record_bytes_most(const history *h)
 {
-    return history_can_redo(h) ? step(h, c, UNDO_FILE_FORTH) : STATUS_HISTORY_ENDS;
+    const uint64_t quarter = h->settings.file_bytes / 4;
+    return quarter < RECORD_BYTES_MOST ? (size_t)quarter : RECORD_BYTES_MOST;
 }
+
+/* Records laid out, not yet put. */
+typedef struct layout {
+    history_held *first, *last;
+    uint64_t digest, bytes;
+    uint32_t records;
+} layout;
+
+static void layout_add(layout *l, history_held *held)
+{
+    held->next = NULL;
+    if (l->last)
+        l->last->next = held;
+    else
+        l->first = held;
+    l->last = held;
+    l->bytes += RECORD_HEADER_BYTES + held->r.bytes;
+    l->records++;
+}
+
+/* As many bricks as one record takes, from *at on; no record when none of them changed. */
+static status lay_record(const history *h, const delta *d, lanes rows, uint32_t *at, layout *l)
+{
+    const size_t most = record_bytes_most(h);
+    const size_t room = RECORD_HEADER_BYTES + most + SIEVE_ROWS_SLACK_BYTES;
+    history_held *held = (history_held *)malloc(sizeof *held + room);
+    if (!held)
+        return STATUS_NO_MEMORY;
+    held->bytes = (uint8_t *)(held + 1);
+    held->r = (record){.digest_before = l->digest};
+    for (; *at < d->count && held->r.bytes + RECORD_BRICK_BYTES_MAX <= most; ++*at) {
+        const delta_brick *b = &d->bricks[*at];
+        const size_t took =
+            record_put_brick(held->bytes + RECORD_HEADER_BYTES + held->r.bytes, b->at, b->old, b->now, rows);
+        held->r.bytes += took;
+        held->r.bricks += took > 0;
+        if (took > 0)
+            l->digest += brick_digest(b->at, b->now, rows) - brick_digest(b->at, b->old, rows);
+    }
+    held->r.digest_after = l->digest;
+    if (held->r.bricks == 0) {
+        free(held);
+        return STATUS_OK;
+    }
+    history_held *fits =
+        (history_held *)realloc(held, sizeof *held + RECORD_HEADER_BYTES + (size_t)held->r.bytes);
+    held = fits ? fits : held;
+    held->bytes = (uint8_t *)(held + 1);
+    layout_add(l, held);
+    return STATUS_OK;
+}
+
+/* Takes the layout over: its records have their numbers from now on. */
+static void put(history *h, const layout *l)
+{
+    for (history_held *held = l->first; held; held = held->next) {
+        held->r.sequence = ++h->sequence;
+        held->r.step_mm = h->step_mm;
+        held->r.dab = h->dab;
+        held->r.cursor = h->tree.cursor;
+        held->r.tip = h->tree.tip;
+    }
+    if (h->held_last)
+        h->held_last->next = l->first;
+    else
+        h->held_first = l->first;
+    h->held_last = l->last;
+    h->held_bytes += l->bytes;
+    h->put_since += l->bytes;
+    h->digest = l->digest;
+}
+
+static void checkpoint_when_due(history *h)
+{
+    const uint64_t strokes = h->settings.strokes / 4, bytes = h->settings.budget_bytes / 8;
+    if (h->strokes_since > strokes || h->put_since > bytes)
+        h->wants_field = true;
+}
+
+status history_put(history *h, const delta *d, uint64_t dab, bool ends, lanes rows)
+{
+    layout l = {.digest = h->digest};
+    status s = STATUS_OK;
+    for (uint32_t at = 0; s == STATUS_OK && at < d->count;)
+        s = lay_record(h, d, rows, &at, &l);
+    const bool begins = !h->in_stroke;
+    const tree_stroke stroke = {.stroke = begins ? h->stroke + 1 : h->stroke,
+                                .parent = begins ? h->tree.cursor : 0,
+                                .digest_before = h->digest,
+                                .digest_after = l.digest};
+    if (s == STATUS_OK && l.first)
+        s = tree_put(&h->tree, stroke); /* one that is there keeps its parent */
+    if (s != STATUS_OK || !l.first) {
+        held_free(l.first);
+        h->in_stroke = h->in_stroke && !(s == STATUS_OK && ends);
+        return s;
+    }
+    if (begins) {
+        h->stroke++;
+        h->part = 0;
+        h->strokes_since++;
+    }
+    h->tree.cursor = h->tree.tip = h->stroke;
+    h->dab = dab;
+    for (history_held *held = l.first; held; held = held->next) {
+        held->r.stroke = h->stroke;
+        held->r.parent = tree_find(&h->tree, h->stroke)->parent;
+        held->r.part = h->part++;
+        held->r.marks = held->next ? 0 : RECORD_WHOLE;
+    }
+    put(h, &l);
+    h->in_stroke = !ends;
+    checkpoint_when_due(h);
+    return STATUS_OK;
+}
+
+status history_move(history *h, const route *gone)
+{
+    assert(gone->from == h->tree.cursor && !h->in_stroke);
+    h->tree.cursor = gone->cursor;
+    h->tree.tip = gone->tip;
+    layout l = {.digest = gone->digest_after};
+    history_held *held = (history_held *)malloc(sizeof *held + RECORD_HEADER_BYTES);
+    if (!held) { /* only that the person went there is forgotten by a power cut: strokes know where they began */
+        h->digest = gone->digest_after;
+        return STATUS_NO_MEMORY;
+    }
+    held->bytes = (uint8_t *)(held + 1);
+    held->r = (record){
+        .marks = RECORD_WHOLE, .digest_before = gone->digest_before, .digest_after = gone->digest_after};
+    layout_add(&l, held);
+    put(h, &l);
+    checkpoint_when_due(h);
+    return STATUS_OK;
+}
+
+/* --- reading a way --- */
+
+/* What reading a stroke is about. */
+typedef struct reading {
+    const history *h;
+    route *into;
+    uint64_t stroke;
+    uint32_t part, group; /* the next ones */
+    uint64_t digest_before, digest_after;
+    byte_buffer buffer;
+} reading;
+
+static status take_record(reading *g, const record *r, const uint8_t *bricks)
+{
+    if (r->part != g->part++ || (r->part > 0 && r->digest_before != g->digest_after))
+        return STATUS_CORRUPT;
+    if (r->part == 0)
+        g->digest_before = r->digest_before;
+    g->digest_after = r->digest_after;
+    uint8_t *own = (uint8_t *)malloc((size_t)r->bytes);
+    if (!own)
+        return STATUS_NO_MEMORY;
+    memcpy(own, bricks, (size_t)r->bytes);
+    status s = route_add(g->into, own, (size_t)r->bytes, g->group);
+    if (s != STATUS_OK)
+        free(own);
+    g->group += (r->marks & RECORD_WHOLE) != 0;
+    return s;
+}
+
+static status read_file(reading *g, uint32_t file)
+{
+    const ring *of = &g->h->ring;
+    const ring_file *f = &of->files[file];
+    status s = STATUS_OK;
+    for (uint64_t offset = 0; s == STATUS_OK && offset < f->end;) {
+        record r;
+        s = ring_read_header(of, file, offset, &r);
+        if (s == STATUS_OK && r.use != f->use)
+            s = STATUS_CORRUPT;
+        if (s != STATUS_OK || r.sequence > f->last)
+            break;
+        if (r.stroke == g->stroke) {
+            s = ring_read_bricks(of, file, offset, &r, &g->buffer);
+            if (s == STATUS_OK)
+                s = take_record(g, &r, g->buffer.bytes);
+        }
+        offset += record_span(r.bytes);
+    }
+    return s;
+}
+
+/* All of a stroke, first part first. */
+static status read_stroke(reading *g)
+{
+    const ring *of = &g->h->ring;
+    status s = STATUS_OK;
+    uint64_t use = 0;
+    for (uint32_t file; s == STATUS_OK && (file = ring_next_file(of, g->stroke, use)) != RING_NONE;) {
+        use = of->files[file].use;
+        s = read_file(g, file);
+    }
+    for (const history_held *held = g->h->held_first; s == STATUS_OK && held; held = held->next)
+        if (held->r.stroke == g->stroke)
+            s = take_record(g, &held->r, held->bytes + RECORD_HEADER_BYTES);
+    const tree_stroke *known = tree_find(&g->h->tree, g->stroke);
+    if (s == STATUS_OK && (g->part == 0 || g->digest_before != known->digest_before ||
+                           g->digest_after != known->digest_after))
+        s = STATUS_CORRUPT;
+    return s;
+}
+
+static status read_leg(const history *h, tree_leg leg, route *into)
+{
+    reading g = {.h = h, .into = into, .stroke = leg.stroke};
+    const uint32_t from = into->count;
+    g.group = from > 0 ? into->legs[from - 1].group + 1 : 0;
+    status s = read_stroke(&g);
+    byte_buffer_finish(&g.buffer);
+    if (s == STATUS_OK && (leg.back ? g.digest_after : g.digest_before) != into->digest_after)
+        s = STATUS_CORRUPT;
+    if (s != STATUS_OK)
+        return s;
+    if (leg.back)
+        route_reverse(into, from);
+    into->digest_after = leg.back ? g.digest_before : g.digest_after;
+    return STATUS_OK;
+}
+
+/* Where the way ends; the cursor when there is none. */
+static uint64_t target_of(const history *h, history_way way, uint64_t stroke)
+{
+    switch (way) {
+    case HISTORY_BACK: return tree_undo(&h->tree);
+    case HISTORY_FORTH: return tree_redo(&h->tree);
+    case HISTORY_FORK: return tree_fork(&h->tree);
+    case HISTORY_TO: break;
+    }
+    return tree_leads(&h->tree, h->tree.cursor, stroke) ? stroke : h->tree.cursor;
+}
+
+/* A stroke that cannot be gone over: it is no more, and its files will be set aside. */
+static void lose(history *h, uint64_t stroke)
+{
+    sentence text = sentence_begin(h->trouble.text, sizeof h->trouble.text);
+    sentence_add(&text, "stroke ");
+    sentence_add_number(&text, stroke, 1);
+    sentence_add(&text, " cannot be gone over: its undo-file is damaged and will be set aside");
+    for (uint32_t n = 0; n < h->ring.count; n++)
+        if (h->ring.files[n].stroke == stroke)
+            h->ring.files[n].spoilt = true;
+    tree_forget(&h->tree, stroke);
+    h->wants_field = true;
+}
+
+status history_fetch(history *h, history_way way, uint64_t stroke, route *route_out)
+{
+    const uint64_t to = target_of(h, way, stroke);
+    if (to == h->tree.cursor)
+        return STATUS_HISTORY_ENDS;
+    route *r = route_out;
+    *r = (route){.from = h->tree.cursor, .digest_before = h->digest, .digest_after = h->digest};
+    status s = STATUS_OK;
+    tree_leg leg = {0, false, 0};
+    for (uint64_t at = r->from; s == STATUS_OK && at != to; at = leg.to) {
+        leg = tree_next(&h->tree, at, to);
+        assert(leg.stroke != 0);
+        r->first = r->first ? r->first : leg.stroke;
+        s = read_leg(h, leg, r);
+    }
+    if (s != STATUS_OK) {
+        route_finish(r);
+        if (s == STATUS_CORRUPT)
+            lose(h, leg.stroke);
+        return s;
+    }
+    r->cursor = to;
+    /* The tip stays where it is as long as redo leads there. */
+    r->tip = to <= h->tree.tip && tree_next(&h->tree, to, h->tree.tip).back == false ? h->tree.tip
+                                                                                      : tree_tip_of(&h->tree, to);
+    return STATUS_OK;
+}
+
+void history_refuse(history *h, const route *refused) { lose(h, refused->first); }

@@ -1,85 +1,172 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Undo and redo through a ring of undo-files, one a stroke, on a byte store; with a checkpoint of the whole
- *          field beneath it, so that a piece and its history come back after a restart.
- * Is not:  The byte store (byte_store.h); what a stroke is (station); what opening makes of damaged files (recovery.h);
- *          a tree of forks (a stroke after an undo takes the place of what was undone).
- * Shape:   strokes are numbered 1, 2, 3, ...; stroke n lives in file "undo-<n mod ring>" until n + ring overwrites it.
- *          `cursor` is the stroke after which the clay stands; strokes oldest..newest are kept:
+ * What:    A sculpture's life on a byte store: every stroke as an undo-file in a ring, every step back and forth, and
+ *          now and then the whole field beneath them, so that the piece and its history come back after a power cut.
+ * Is not:  The byte store (byte_store.h); threads (whoever owns the struct calls it from one thread at a time; keeper.h
+ *          says how the sculpture's thread and that one meet); what opening makes of what it finds (recovery.h).
+ * Shape:   what a stroke changed goes through four states:
  *
- *              oldest ... cursor | cursor+1 ... newest
- *                   undo <-      |      -> redo
+ *              made ----------> put ----------> kept ----------> beneath
+ *              in the clay,     a record in     on the medium,   in both checkpoints: its undo-file may be
+ *              a delta of it    memory          acknowledged     written anew, oldest first
+ *                     history_put    history_keep    history_work
  *
- *          files: undo-0000 ... (undo_file.h), "cursor" (cursor_file.h), "field" (checkpoint.h), each replaced by
- *          rename from "undo.new", "cursor.new", "field.new".
- *          On open: field is read, then undo-files are walked from field's stroke to the cursor.
- *          H1: the undo-files that lead from the checkpoint to the cursor are always there. What would break that (the
- *          ring coming round, a new stroke in the place of undone ones that the checkpoint holds, a damaged file found
- *          on the way) writes a new checkpoint first. A stroke's file is on the medium before the cursor says so.
- * Owner:   the caller owns the struct and the store; history owns its buffer.
- * Errors:  STATUS_HISTORY_ENDS; STATUS_IO, STATUS_CORRUPT, STATUS_NEWER, STATUS_POOL_FULL, STATUS_NO_MEMORY: the clay
- *          is as it was. A file that is not what it should be ends history on that side: the first undo (redo) that
- *          meets it answers STATUS_CORRUPT, later ones STATUS_HISTORY_ENDS; the file is renamed to "<name>.set-aside",
- *          never deleted.
- * Cost:    a stroke: its changed bricks compared and written once, and clay_digest. An undo: the bricks read, checked
- *          and kept as images until the cursor is written. Four syncs a stroke, two an undo. A checkpoint, the whole
- *          field: at the least once a ring.
- * Source:  000 section 3.3; 002 section 2.3.
+ *          files: undo-0000 ... (ring.h, record.h); "field", the newest checkpoint, and "field.before", the one before
+ *          it (checkpoint.h), made as "field.new" and renamed.
+ *
+ *          H1  What history_keep has answered STATUS_OK for survives a power cut at any instant, whatever the medium
+ *              did with later writes. (history_keep: written, then synced, then counted. tests/crash)
+ *          H2  After a cut the clay is in a state that existed: the last kept one, or one put after it; a stroke under
+ *              way is there up to its last stretch that is, as one undo step. (recovery_run)
+ *          H3  From each of the two checkpoints all records lead to where the clay stands: no undo-file on that way is
+ *              written anew. (history.c: may_go)
+ *          H4  A record begins on blocks of its own, and its file is as long as it will ever be: no write of a new
+ *              record touches an old one. (ring_write, ring_make)
+ *          H5  A file whose writing or sync failed gets no further record; what was meant for it is still in memory and
+ *              goes to another. (history_keep)
+ *          H6  Nothing that cannot be read is removed: it is renamed to "<name>.set-aside". (recovery_run,
+ *              history_fetch)
+ *          H7  When the medium fills up, undo reaches less far, oldest strokes first; then history_room refuses new
+ *              strokes. What was put stays put. (history_keep)
+ *          The hardware must keep what it said it flushed. Where it lies, H1 holds up to the first thing it lost, and
+ *          recovery says that acknowledged strokes are missing.
+ * Owner:   the caller owns the struct and the store; history owns its memory.
+ * Errors:  STATUS_HISTORY_ENDS; STATUS_IO, STATUS_NO_SPACE, STATUS_CORRUPT, STATUS_NEWER, STATUS_POOL_FULL,
+ *          STATUS_NO_MEMORY. `trouble` is a sentence for the person where there is more to say.
+ * Cost:    history_put: the changed bricks compared, hashed, copied (1 us each). history_keep: a write and a sync for
+ *          all that was put. A checkpoint: the whole field, in slices of HISTORY_SLICE_BYTES.
+ * Source:  000 section 3.3; 002 section 2.3; facts/devices.md G.
  */
 #ifndef GLAISE_HISTORY_HISTORY_H
 #define GLAISE_HISTORY_HISTORY_H
 
-#include "clay/clay.h"
-#include "history/byte_buffer.h"
-#include "history/byte_store.h"
+#include "clay/delta.h"
 #include "history/checkpoint.h"
+#include "history/ring.h"
+#include "history/route.h"
+#include "history/tree.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum { HISTORY_RING_DEFAULT = 200, HISTORY_RING_MAX = 9999 };
+enum { HISTORY_STROKES_DEFAULT = 200, HISTORY_STROKES_MAX = 9999, HISTORY_SLICE_BYTES = 1024 * 1024 };
+
+#define HISTORY_FILE_BYTES_DEFAULT (UINT64_C(1) << 20)
+#define HISTORY_BUDGET_BYTES_DEFAULT (UINT64_C(1) << 30)
+/* What is put and cannot be written stays in memory up to here; then new strokes are refused. */
+#define HISTORY_HELD_BYTES_DEFAULT (UINT64_C(1) << 28)
 
 #define HISTORY_FIELD_NAME "field"
+#define HISTORY_FIELD_BEFORE_NAME "field.before"
 
-typedef struct history {
-    byte_store store;
-    uint32_t ring; /* undo-files at most */
-    uint64_t oldest, cursor, newest; /* strokes; oldest is the first that can be undone, newest the last to redo */
-    uint64_t checkpoint;             /* stroke after which "field" stands */
-    bool checkpoint_known;           /* false after a rename that failed: it may have happened or not */
-    uint64_t digest;                 /* clay_digest at the cursor */
-    double step_mm;
-    uint64_t dab; /* number of the next dab, kept across restarts; the caller moves it on before it commits */
-    byte_buffer buffer;
-} history;
+typedef struct history_settings {
+    uint32_t strokes;      /* that can be undone, at most; 1 .. HISTORY_STROKES_MAX */
+    uint64_t file_bytes;   /* of an undo-file; a multiple of 4 KiB, RING_FILE_BYTES_MIN at the least */
+    uint64_t budget_bytes; /* of all undo-files; more only where no checkpoint could be made in time */
+    uint64_t held_bytes;
+} history_settings;
 
-/* What opening found, for the person: one sentence, "" when all was as it should be. */
+#define HISTORY_SETTINGS_DEFAULT                                                                                       \
+    {HISTORY_STROKES_DEFAULT, HISTORY_FILE_BYTES_DEFAULT, HISTORY_BUDGET_BYTES_DEFAULT, HISTORY_HELD_BYTES_DEFAULT}
+
+/* What there is to say to the person: one sentence, "" when all is as it should be. */
 typedef struct history_finding {
     char text[200];
 } history_finding;
 
-/* Opens or makes the store; c (initialised, empty) becomes the sculpture as of the cursor, all of it dirty. step_mm and
-   ring are used for a new store; an old one keeps its own (see step_mm and ring afterwards). A field that cannot be
-   read is set aside and the answer is STATUS_CORRUPT with a sentence: the caller may open again, which makes the
-   sculpture from its undo-files if the first stroke's is still there, and else sets aside what there is and starts
-   anew. After anything but STATUS_OK c is empty and there is nothing to close. */
-STATUS_CHECKED status history_open(history *h, byte_store store, uint32_t ring, double step_mm, clay *c,
-                                   history_finding *finding_out);
+/* A record that is not kept yet. */
+typedef struct history_held {
+    struct history_held *next;
+    record r;
+    uint8_t *bytes; /* header, bricks: they lie right behind */
+} history_held;
+
+/* A checkpoint on the medium. */
+typedef struct history_base {
+    bool there;
+    uint64_t sequence, cursor;
+} history_base;
+
+typedef enum history_medium {
+    HISTORY_MEDIUM_GOOD,
+    HISTORY_MEDIUM_FULL,
+    HISTORY_MEDIUM_FAILS, /* or may only be read */
+} history_medium;
+
+typedef struct history {
+    byte_store store;
+    history_settings settings;
+    struct ring ring;
+    struct tree tree;
+    history_base field, before;
+    uint64_t sequence, kept; /* the last record that was put; that is kept */
+    uint64_t seal;           /* of the kept one */
+    uint64_t kept_cursor, kept_digest; /* of the last whole one that is kept */
+    uint64_t stroke;         /* newest number given */
+    bool in_stroke;          /* what is put next is part of that stroke */
+    uint32_t part;           /* number of its next part */
+    uint64_t digest;         /* clay_digest after the last record that was put */
+    uint64_t dab;            /* number of the next dab, as last put */
+    double step_mm;
+    history_held *held_first, *held_last;
+    uint64_t held_bytes;
+    history_medium medium;
+    bool wants_field;        /* a checkpoint is due: give one to history_field_begin, between strokes */
+    uint64_t put_since, strokes_since; /* bytes, strokes: since the last checkpoint was begun */
+    checkpoint_writer *writer; /* NULL: none is being written */
+    uint64_t written;          /* bytes of it */
+    checkpoint_facts writing;
+    history_finding trouble;   /* what went wrong last; the caller may empty it */
+} history;
+
+/* Opens or makes the store; c (initialised, empty) becomes the sculpture, all of it dirty. step_mm is for a new store;
+   an old one keeps its own. Whatever the files hold, but for STATUS_NEWER, it opens (recovery.h). After anything but
+   STATUS_OK c is empty and there is nothing to close. */
+STATUS_CHECKED status history_open(history *h, byte_store store, const history_settings *settings, double step_mm,
+                                   clay *c, history_finding *finding_out);
+/* Keeps nothing: what is put and not kept is gone. */
 void history_close(history *h);
 
-/* Writes the change recorded in c (changes since clay_change_begin) as the next undo-file and ends the change. A stroke
-   that changed nothing makes no file. On failure the change is still recorded: revert it, or try again. */
-STATUS_CHECKED status history_commit(history *h, clay *c);
-/* One stroke back or forth; marks the dirt. Nothing may be recorded at this time. */
-STATUS_CHECKED status history_undo(history *h, clay *c);
-STATUS_CHECKED status history_redo(history *h, clay *c);
+/* --- strokes --- */
 
-static inline bool history_can_undo(const history *h) { return h->cursor >= h->oldest; }
-static inline bool history_can_redo(const history *h) { return h->cursor < h->newest; }
+/* STATUS_OK when a stroke may begin; else why not. */
+STATUS_CHECKED status history_room(const history *h);
+/* What the stroke under way changed since it was last put (sorted: delta_sort; nothing: no record); `ends`: it is the
+   last of it. dab is the number of the next dab. STATUS_NO_MEMORY: nothing is put. */
+STATUS_CHECKED status history_put(history *h, const delta *d, uint64_t dab, bool ends, lanes rows);
+/* Writes and syncs all that was put. On failure it stays in memory and is tried again with the next call. */
+STATUS_CHECKED status history_keep(history *h);
 
-/* Writes "field" as of the cursor, atomically. A change being recorded is left out. */
-STATUS_CHECKED status history_checkpoint(history *h, const clay *c);
+/* --- back and forth --- */
+
+typedef enum history_way {
+    HISTORY_BACK,  /* undo */
+    HISTORY_FORTH, /* redo */
+    HISTORY_FORK,  /* to the end of the branch that is next older; from the oldest to the newest */
+    HISTORY_TO,    /* to a stroke */
+} history_way;
+
+/* Reads the way from where the clay stands; route_out is empty and becomes the caller's. STATUS_HISTORY_ENDS: there is
+   none. STATUS_CORRUPT: a stroke on it cannot be gone over; its files are set aside, and it is no more.
+   Nothing moves. */
+STATUS_CHECKED status history_fetch(history *h, history_way way, uint64_t stroke, route *route_out);
+/* The clay went that way (route_apply). */
+STATUS_CHECKED status history_move(history *h, const route *gone);
+/* The clay could not go that way, because the route is not what it should be: its first stroke is no more. */
+void history_refuse(history *h, const route *refused);
+
+static inline bool history_can_undo(const history *h) { return tree_undo(&h->tree) != h->tree.cursor; }
+static inline bool history_can_redo(const history *h) { return tree_redo(&h->tree) != h->tree.cursor; }
+
+/* --- checkpoints, and what else can wait --- */
+
+/* Begins writing a checkpoint of c, which is the clay as of all that was put, between strokes, and does not change
+   until history_work has answered false. Nothing is being written. */
+STATUS_CHECKED status history_field_begin(history *h, const clay *c);
+/* One slice of what is to be done beside strokes: of a checkpoint, of an undo-file made ahead. Answers whether there is
+   more. What fails is told in `trouble` and given up until it is due again. */
+bool history_work(history *h);
 
 #ifdef __cplusplus
 }

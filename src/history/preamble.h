@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What:    The beginning that all files of this room share: a mark, a version, a header that vouches for itself.
- * Is not:  The rest of any header (checkpoint.h, undo_file.h, undo_ring.h draw their own).
+ * Is not:  The rest of any header (checkpoint.h, record.h draw their own).
  * Shape:   little-endian, in every version there will be:
  *            offset size
  *                 0    8  mark: which kind of file; ends in "\r\n", so that a text-mode copy spoils it

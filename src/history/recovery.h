@@ -1,25 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    What opening makes of the files it finds: the clay as of the cursor, and how much history leads away from
- *          it; out of damaged files the latest state that can be proven.
- * Is not:  A repair of bytes: a damaged file is set aside as it is.
- * Shape:   the base is "field", or empty clay before stroke 1 when there is no field. From the base, undo-files are
- *          applied as long as number and digests link, to the stroke that "cursor" names:
- *
- *              found                                         the sculpture stands
- *              all sound                                     at the cursor
- *              no sound cursor                               after the last stroke that links onto the base
- *              a file between base and cursor not sound      where the links end; the strokes beyond are set aside
- *              a file on the undo or redo side not sound     at the cursor; history ends on that side
- *              no sound field, but links from stroke 1 on    where the links end
- *              no sound field, no such links                 empty; everything is set aside
- *
- *          A file of another branch (a stroke took an undone one's place, and the power went before the cursor was
- *          written) is no damage: history ends before it without a word.
- * Errors:  STATUS_NEWER before anything is touched; STATUS_CORRUPT: field was not sound and is now set aside;
- *          STATUS_IO when a file on the way cannot be read; STATUS_POOL_FULL, STATUS_NO_MEMORY. The clay is then in no
- *          defined state: history_open empties it. What is read is never asserted.
- * Cost:    the field, the undo-files between it and the cursor, the headers of all others.
+ * What:    What opening makes of the files it finds: the latest state of the clay that can be proven, and the tree of
+ *          strokes that leads away from it.
+ * Is not:  A repair of bytes: what is damaged is set aside as it is.
+ * Shape:   1. every undo-file's records, from its beginning to the first place where none follows on;
+ *          2. files in order of use: where one goes on from a record that an earlier file has too, the later one counts
+ *             (a sync had failed); one that goes on from nothing that counts is what a cut left over;
+ *          3. the base: "field", else "field.before", else empty clay;
+ *          4. from the base's record on, one by one, each sealed by the one before and its bricks sound, to the first
+ *             break: the tail is cut behind the last whole record;
+ *          5. the way over the tree of strokes from where the base stands to where that record stands, each stroke
+ *             proven by its digest; where a stroke cannot be gone over, to the latest record that can be reached;
+ *          6. a look beyond the break: a record there that was written when more had already been kept shows that the
+ *             medium lost what it had acknowledged. That is told, and its file set aside.
+ * Errors:  STATUS_NEWER before anything is touched; STATUS_IO where the store cannot even be listed; STATUS_POOL_FULL,
+ *          STATUS_NO_MEMORY. The clay is then in no defined state: history_open empties it. What is read is never
+ *          asserted.
+ * Cost:    the base, the records since, 512 bytes of every other record.
  */
 #ifndef GLAISE_HISTORY_RECOVERY_H
 #define GLAISE_HISTORY_RECOVERY_H
@@ -30,13 +27,8 @@
 extern "C" {
 #endif
 
-/* What the caller must write before it goes on. */
-typedef struct recovery_writes {
-    bool field, cursor;
-} recovery_writes;
-
-/* h has store, ring and step_mm as the caller of history_open gave them; the rest of h is filled. */
-STATUS_CHECKED status recovery_run(history *h, clay *c, recovery_writes *writes_out, history_finding *finding_out);
+/* h has store, settings, step_mm and an opened ring; the rest of h is filled. */
+STATUS_CHECKED status recovery_run(history *h, clay *c, history_finding *finding_out);
 
 #ifdef __cplusplus
 }

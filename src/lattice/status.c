@@ -13,6 +13,8 @@ const char *status_text(status s)
     case STATUS_TOO_LARGE: return "the tool covers more clay than one dab may";
     case STATUS_HISTORY_ENDS: return "history ends here";
     case STATUS_IO: return "the storage failed";
+    case STATUS_NO_SPACE: return "the storage is full";
+    case STATUS_BUSY: return "the storage has not caught up yet";
     case STATUS_CORRUPT: return "the bytes are damaged";
     case STATUS_NEWER: return "written by a newer version";
     }

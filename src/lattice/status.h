@@ -23,6 +23,8 @@ typedef enum status {
     STATUS_TOO_LARGE,     /* one dab larger than its named limit */
     STATUS_HISTORY_ENDS,  /* nothing older (undo) or newer (redo) is kept */
     STATUS_IO,            /* the byte store failed; errno-like detail is the store's to tell */
+    STATUS_NO_SPACE,      /* the byte store is full */
+    STATUS_BUSY,          /* the byte store has not caught up yet */
     STATUS_CORRUPT,       /* bytes are not what their checksum or format promises */
     STATUS_NEWER,         /* written by a version later than this one */
 } status;

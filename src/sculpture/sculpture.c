@@ -2,6 +2,7 @@
 #include "sculpture/sculpture.h"
 
 #include "clay/digest.h"
+#include "sculpture/keeping.h"
 
 #include <string.h>
 
@@ -24,22 +25,24 @@ static void rooms_finish(sculpture *s)
     clay_finish(&s->clay);
 }
 
-status sculpture_open(sculpture *s, const byte_store *store, uint32_t bricks, uint32_t ring, double step_mm,
-                      history_finding *finding_out)
+status sculpture_open(sculpture *s, const byte_store *store, uint32_t bricks, const history_settings *settings,
+                      double step_mm, history_finding *finding_out)
 {
+    const history_settings usual = HISTORY_SETTINGS_DEFAULT;
     memset(s, 0, sizeof *s);
     finding_out->text[0] = '\0';
     if (!(step_mm >= SCULPTURE_STEP_MM_MIN && step_mm <= SCULPTURE_STEP_MM_MAX) || bricks < 1 ||
-        bricks > CAPACITY_BRICKS || ring < 1 || ring > HISTORY_RING_MAX)
+        bricks > CAPACITY_BRICKS)
         return STATUS_BAD_PARAMETER;
     s->step_mm = step_mm;
     status outcome = rooms_init(s, bricks);
     if (outcome == STATUS_OK && store) {
-        outcome = history_open(&s->history, *store, ring, step_mm, &s->clay, finding_out);
+        outcome = history_open(&s->history, *store, settings ? settings : &usual, step_mm, &s->clay, finding_out);
         s->has_history = outcome == STATUS_OK;
     }
     if (outcome == STATUS_OK && s->has_history) {
         surface_counts counts;
+        s->keeper = keeper_in_place(&s->history);
         s->step_mm = s->history.step_mm;
         s->dab = s->history.dab;
         outcome = surface_rebuild(&s->surface, &s->clay, &counts);
@@ -55,15 +58,12 @@ status sculpture_open(sculpture *s, const byte_store *store, uint32_t bricks, ui
 
 status sculpture_close(sculpture *s)
 {
-    status outcome = STATUS_OK;
-    if (s->in_stroke)
-        outcome = sculpture_stroke_end(s);
+    status outcome = s->in_stroke ? sculpture_stroke_end(s) : STATUS_OK;
     if (s->has_history) {
-        if (s->history.checkpoint != s->history.cursor) {
-            status written = history_checkpoint(&s->history, &s->clay);
-            outcome = outcome == STATUS_OK ? written : outcome;
-        }
+        const status kept = keeping_all(s);
+        outcome = outcome == STATUS_OK ? kept : outcome;
         history_close(&s->history);
+        keeping_finish(s);
     }
     rooms_finish(s);
     return outcome;
@@ -74,8 +74,10 @@ status sculpture_close(sculpture *s)
 void sculpture_stroke_begin(sculpture *s)
 {
     assert(!s->in_stroke);
+    assert(!s->jobs.fetch);
     clay_change_begin(&s->clay);
     s->in_stroke = true;
+    s->stroke_changed = false;
 }
 
 /* The clay was put back to what the surface showed before: that fits again. */
@@ -94,6 +96,8 @@ static void stroke_revert(sculpture *s)
     clay_change_revert(&s->clay);
     surface_put_back(s);
     s->in_stroke = false;
+    if (s->has_history)
+        keeping_end(s);
 }
 
 status sculpture_apply_field(sculpture *s, const tool *t, const sculpture_dab *d, tool_counts *counts_out)
@@ -132,46 +136,83 @@ status sculpture_apply(sculpture *s, const tool *t, const sculpture_dab *d, scul
 status sculpture_stroke_end(sculpture *s)
 {
     assert(s->in_stroke);
-    bool changed = change_count(&s->clay.changes) > 0;
-    if (s->has_history) {
-        s->history.dab = s->dab;
-        status outcome = history_commit(&s->history, &s->clay);
-        if (outcome != STATUS_OK) {
-            stroke_revert(s);
-            return outcome;
-        }
-    } else {
-        clay_change_end(&s->clay);
+    s->stroke_changed = s->stroke_changed || change_count(&s->clay.changes) > 0;
+    const status outcome = s->has_history ? keeping_hand(s, true) : STATUS_OK;
+    if (outcome != STATUS_OK) {
+        stroke_revert(s);
+        return outcome;
     }
+    clay_change_end(&s->clay);
     s->in_stroke = false;
-    s->strokes += changed;
+    s->strokes += s->stroke_changed;
     return STATUS_OK;
 }
 
-typedef status (*history_step)(history *, clay *);
+/* --- back and forth --- */
 
-static status step_through(sculpture *s, history_step step, history_step back)
+void sculpture_step_begin(sculpture *s, history_way way, uint64_t stroke)
 {
-    assert(!s->in_stroke);
+    assert(!s->in_stroke && !s->jobs.fetch);
     if (!s->has_history)
-        return STATUS_HISTORY_ENDS;
+        return;
+    keeper_job *job = keeping_job(s, KEEPER_FETCH);
+    job->way = way;
+    job->stroke = stroke;
+    s->jobs.fetch = job;
+    keeping_send(s, job);
+}
+
+bool sculpture_step_is_ready(sculpture *s)
+{
+    return !s->jobs.fetch || s->keeper.is_done(s->keeper.self, s->jobs.fetch);
+}
+
+/* The clay and its surface go the way, or stay. */
+static status go(sculpture *s, const route *way)
+{
     surface_counts counts;
-    status outcome = step(&s->history, &s->clay);
-    if (outcome != STATUS_OK) {
-        surface_put_back(s); /* a step refused half-way leaves marks */
-        return outcome;
+    status outcome = route_apply(way, &s->clay);
+    if (outcome == STATUS_OK) {
+        outcome = surface_update(&s->surface, &s->clay, &counts);
+        if (outcome != STATUS_OK)
+            clay_change_revert(&s->clay);
+        else
+            clay_change_end(&s->clay);
     }
-    outcome = sculpture_apply_surface(s, &counts);
-    if (outcome != STATUS_OK) {
-        status undone = back(&s->history, &s->clay);
-        (void)undone; /* refused as well: the clay stays where it stepped to, and so must the surface */
+    if (outcome != STATUS_OK)
         surface_put_back(s);
-    }
+    dirt_clear(&s->clay.dirty);
     return outcome;
 }
 
-status sculpture_undo(sculpture *s) { return step_through(s, history_undo, history_redo); }
-status sculpture_redo(sculpture *s) { return step_through(s, history_redo, history_undo); }
+status sculpture_step_end(sculpture *s)
+{
+    keeper_job *fetch = s->jobs.fetch;
+    if (!fetch)
+        return STATUS_HISTORY_ENDS;
+    s->keeper.await(s->keeper.self, fetch);
+    status outcome = fetch->outcome;
+    if (outcome == STATUS_OK)
+        outcome = go(s, &fetch->found);
+    if (outcome == STATUS_OK || (outcome == STATUS_CORRUPT && fetch->outcome == STATUS_OK)) {
+        keeper_job *job = keeping_job(s, outcome == STATUS_OK ? KEEPER_MOVE : KEEPER_REFUSE);
+        job->found = fetch->found;
+        memset(&fetch->found, 0, sizeof fetch->found);
+        keeping_send(s, job);
+    }
+    s->jobs.fetch = NULL;
+    keeping_take(s);
+    return outcome;
+}
+
+status sculpture_step(sculpture *s, history_way way, uint64_t stroke)
+{
+    sculpture_step_begin(s, way, stroke);
+    return sculpture_step_end(s);
+}
+
+status sculpture_undo(sculpture *s) { return sculpture_step(s, HISTORY_BACK, 0); }
+status sculpture_redo(sculpture *s) { return sculpture_step(s, HISTORY_FORTH, 0); }
 
 /* --- the piece as a whole --- */
 
@@ -244,7 +285,14 @@ status sculpture_read(sculpture *s, checkpoint_source source, void *self, checkp
     return outcome;
 }
 
-uint64_t sculpture_digest(const sculpture *s)
+status sculpture_check(const byte_store *store, check_teller tell, void *self, check_facts *facts_out)
 {
-    return digest_bytes(&s->step_mm, sizeof s->step_mm, clay_digest(&s->clay));
+    return check_run(store, tell, self, facts_out);
 }
+
+uint64_t sculpture_digest_of(double step_mm, uint64_t digest)
+{
+    return digest_bytes(&step_mm, sizeof step_mm, digest);
+}
+
+uint64_t sculpture_digest(const sculpture *s) { return sculpture_digest_of(s->step_mm, clay_digest(&s->clay)); }

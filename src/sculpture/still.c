@@ -15,7 +15,8 @@ void still_end(still *s) { freeze_end(&s->field); }
 
 status still_write(still *s, checkpoint_sink sink, void *self)
 {
-    const checkpoint_facts facts = {.step_mm = s->step_mm, .dab = s->dab};
+    const checkpoint_facts facts = {
+        .step_mm = s->step_mm, .dab = s->dab, .digest = clay_digest(&s->field.still)};
     return checkpoint_write(&s->field.still, &facts, sink, self);
 }
 

@@ -26,7 +26,7 @@ command_argument count(const char *name) { return integer(name, -32768, 32767); 
 
 const std::vector<std::string_view> DOWN_UP{"up", "down"};
 const std::vector<std::string_view> ON_OFF{"off", "on"};
-const std::vector<std::string_view> MEANINGS{"nothing", "apply", "undo", "redo", "clutch", "next-action"};
+const std::vector<std::string_view> MEANINGS{"nothing", "apply", "undo", "redo", "clutch", "next-action", "fork"};
 
 std::vector<std::string_view> action_names()
 {
@@ -67,6 +67,7 @@ std::vector<command_form> tool_forms()
         {COMMAND_APPLY, "apply", {word("EDGE", DOWN_UP)}, "begins or ends a stroke, as the apply pedal does"},
         {COMMAND_UNDO, "undo", {}, "takes the last stroke back"},
         {COMMAND_REDO, "redo", {}, "brings an undone stroke again"},
+        {COMMAND_FORK, "fork", {}, "goes to the end of the next older branch of history; after the oldest, the newest"},
         {COMMAND_CLEAR, "clear", {}, "takes all clay away, as one stroke"},
         {COMMAND_TOOL,
          "tool",
@@ -147,6 +148,10 @@ std::vector<command_form> picture_forms()
          "lights a light and says with what it moves"},
         {COMMAND_LIGHT_OFF, "light-off", {integer("N", 0, 3)}, "puts a light out"},
         {COMMAND_LIGHTS_SHOWN, "lights-shown", {word("SHOWN", ON_OFF)}, "draws the lights as small spheres or not"},
+        {COMMAND_KEEPING_SHOWN,
+         "keeping-shown",
+         {word("SHOWN", ON_OFF)},
+         "draws a bead in the corner or not: green when all is kept, amber until it is, red when it cannot be"},
         {COMMAND_MATERIAL,
          "material",
          {number("SPECULAR", 0, 1), number("SHININESS", 1, 1000), number("AMBIENT", 0, 1)},

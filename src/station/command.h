@@ -36,6 +36,7 @@ enum command_kind {
     COMMAND_APPLY,
     COMMAND_UNDO,
     COMMAND_REDO,
+    COMMAND_FORK,
     COMMAND_CLEAR,
     /* the tool */
     COMMAND_TOOL,
@@ -60,6 +61,7 @@ enum command_kind {
     COMMAND_LIGHT,
     COMMAND_LIGHT_OFF,
     COMMAND_LIGHTS_SHOWN,
+    COMMAND_KEEPING_SHOWN,
     COMMAND_MATERIAL,
     COMMAND_TOOL_STYLE,
     COMMAND_WORKSPACE,

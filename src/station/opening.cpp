@@ -6,10 +6,6 @@
 #include <algorithm>
 
 struct opening {
-    sculpture *piece = nullptr;
-    byte_store port{}; /* the caller's; while it reads, history speaks to it through the functions below */
-    std::function<void(double)> told;
-    double expected = 1, got = 0;
     status outcome = STATUS_OK;
     history_finding finding{};
     errand *reading = nullptr;
@@ -17,11 +13,18 @@ struct opening {
 
 namespace {
 
-opening *of(void *self) { return static_cast<opening *>(self); }
+/* The caller's port; while it reads, history speaks to it through the functions below. */
+struct metered {
+    byte_store port;
+    const std::function<void(double)> &told;
+    double expected, got = 0;
+};
+
+metered *of(void *self) { return static_cast<metered *>(self); }
 
 status port_read(void *self, const char *name, uint64_t offset, void *bytes, size_t n, size_t *got_out)
 {
-    opening *o = of(self);
+    metered *o = of(self);
     const status s = o->port.read(o->port.self, name, offset, bytes, n, got_out);
     o->got += static_cast<double>(*got_out);
     if (o->told)
@@ -49,6 +52,10 @@ status port_rename(void *self, const char *from, const char *to)
     return port_of(self).rename(port_of(self).self, from, to);
 }
 status port_remove(void *self, const char *name) { return port_of(self).remove(port_of(self).self, name); }
+status port_list(void *self, void (*take)(void *into, const char *name), void *into)
+{
+    return port_of(self).list(port_of(self).self, take, into);
+}
 
 double field_bytes(const byte_store &port)
 {
@@ -60,19 +67,23 @@ double field_bytes(const byte_store &port)
 
 } // namespace
 
-opening *opening_begin(sculpture *piece, const byte_store &port, uint32_t ring, double step_mm)
+status opening_here(sculpture *piece, const byte_store &port, const history_settings &settings, double step_mm,
+                    const std::function<void(double)> &told, history_finding *finding_out)
+{
+    metered m = {port, told, field_bytes(port)};
+    const byte_store through = {&m,        port_read,   port_write,  port_size, port_truncate,
+                                port_sync, port_rename, port_remove, port_list};
+    const status outcome = sculpture_open(piece, &through, CAPACITY_BRICKS, &settings, step_mm, finding_out);
+    if (outcome == STATUS_OK)
+        piece->history.store = port; /* the meter will be gone */
+    return outcome;
+}
+
+opening *opening_begin(sculpture *piece, const byte_store &port, const history_settings &settings, double step_mm)
 {
     auto *o = new opening;
-    o->piece = piece;
-    o->port = port;
-    o->expected = field_bytes(port);
-    o->reading = errand_begin([o, ring, step_mm](const std::function<void(double)> &told) {
-        const byte_store metered = {o,         port_read,   port_write, port_size, port_truncate,
-                                    port_sync, port_rename, port_remove};
-        o->told = told;
-        o->outcome = sculpture_open(o->piece, &metered, CAPACITY_BRICKS, ring, step_mm, &o->finding);
-        if (o->outcome == STATUS_OK)
-            o->piece->history.store = o->port; /* the opening will be gone */
+    o->reading = errand_begin([=](const std::function<void(double)> &told) {
+        o->outcome = opening_here(piece, port, settings, step_mm, told, &o->finding);
         return std::string();
     });
     return o;

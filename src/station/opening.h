@@ -11,12 +11,19 @@
 
 #include "sculpture/sculpture.h"
 
+#include <functional>
+
 struct opening;
 
-opening *opening_begin(sculpture *piece, const byte_store &port, uint32_t ring, double step_mm);
+opening *opening_begin(sculpture *piece, const byte_store &port, const history_settings &settings, double step_mm);
 /* 0..1: bytes read, of those that the sculpture's file has. */
 double opening_part(const opening *o);
 bool opening_is_done(const opening *o);
 [[nodiscard]] status opening_end(opening *o, history_finding *finding_out);
+
+/* The same in the caller's thread, for those who are an errand already; `told` hears the part. */
+[[nodiscard]] status opening_here(sculpture *piece, const byte_store &port, const history_settings &settings,
+                                  double step_mm, const std::function<void(double)> &told,
+                                  history_finding *finding_out);
 
 #endif

@@ -29,6 +29,9 @@ enum snapshot_environment {
     SNAPSHOT_ENVIRONMENT_CLEARCOAT, /* a layer that grows towards grazing angles */
 };
 
+/* Is what was made on the medium? */
+enum snapshot_keeping { SNAPSHOT_KEEPING_ALL, SNAPSHOT_KEEPING_UNDER_WAY, SNAPSHOT_KEEPING_FAILS };
+
 enum snapshot_tool_style { SNAPSHOT_TOOL_HIDDEN, SNAPSHOT_TOOL_WIREFRAME, SNAPSHOT_TOOL_TRANSPARENT };
 
 struct snapshot_light {
@@ -68,6 +71,9 @@ struct snapshot {
     bool box_shown = true;
     std::array<double, 3> box_lo{-50, -50, -50}, box_hi{50, 50, 50}; /* workspace, mm */
     bool lights_shown = true;
+
+    bool keeping_shown = false;
+    snapshot_keeping keeping = SNAPSHOT_KEEPING_ALL;
 };
 
 #endif

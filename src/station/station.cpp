@@ -10,7 +10,7 @@
 namespace {
 
 enum moved_thing : int { MOVED_NOTHING, MOVED_SCENE, MOVED_TOOL, MOVED_LIGHT0 };
-enum meaning : int { MEANS_NOTHING, MEANS_APPLY, MEANS_UNDO, MEANS_REDO, MEANS_CLUTCH, MEANS_NEXT_ACTION };
+enum meaning : int { MEANS_NOTHING, MEANS_APPLY, MEANS_UNDO, MEANS_REDO, MEANS_CLUTCH, MEANS_NEXT_ACTION, MEANS_FORK };
 
 constexpr int PUCKS = 8, PEDALS = 8, BUTTONS = 32;
 constexpr double CAMERA_AT_REST_MM = 200; /* speeds are meant at this distance and scale with it */
@@ -39,6 +39,10 @@ struct station {
     stroke path;
     uint64_t strokes = 0;
     bool refusal_told = false;
+    int64_t part_us = 0;      /* when the stroke was last handed to the keeper */
+    const char *step = nullptr; /* through history, by name: it waits for what it needs to be read */
+    int64_t step_begun_ns = 0;
+    std::string trouble_told;
 
     std::array<std::array<int16_t, 6>, PUCKS> puck{};
     std::array<moved_thing, 1 + PUCKS> moves{}; /* mouse, then pucks */
@@ -96,19 +100,29 @@ void dabs_apply(station *s, const std::vector<stroke_dab> &dabs)
             dab_apply(s, d);
 }
 
-/* Does to the history what `act` does, and tells and reports how it went. */
-void history_act(station *s, status (*act)(sculpture *), const char *what)
+/* Tells and reports how something went that history has a part in. */
+void history_report(station *s, const char *what, status outcome, int64_t begun_ns)
 {
-    int64_t start = clock_ns(s);
-    status outcome = act(s->piece);
     if (outcome != STATUS_OK)
         tell(s, std::string(what) + ": " + status_text(outcome));
     if (s->ears.stroke)
-        s->ears.stroke(outcome, clock_ns(s) - start);
+        s->ears.stroke(outcome, clock_ns(s) - begun_ns);
+}
+
+void history_act(station *s, status (*act)(sculpture *), const char *what)
+{
+    const int64_t start = clock_ns(s);
+    history_report(s, what, act(s->piece), start);
 }
 
 void apply_begin(station *s)
 {
+    const status room = sculpture_room(s->piece);
+    if (room != STATUS_OK) {
+        tell(s, std::string("no stroke can begin: ") + status_text(room));
+        return;
+    }
+    s->part_us = s->next_us;
     sculpture_stroke_begin(s->piece);
     s->path = stroke_begin(s->tool.pose);
     s->applying = true;
@@ -125,7 +139,7 @@ void apply_end(station *s)
     if (s->piece->in_stroke)
         history_act(s, sculpture_stroke_end, "the stroke was not kept");
     else
-        tell(s, "the stroke was taken back: the surface has reached its limit");
+        tell(s, "the stroke ended early: the surface has reached its limit");
 }
 
 void apply_hold(station *s, bool down)
@@ -144,17 +158,28 @@ void between_strokes(station *s)
         apply_end(s);
 }
 
-void undo(station *s)
+/* Where what the step needs is at hand, it is done at once. */
+void step_end_if(station *s, bool ready)
 {
-    between_strokes(s);
-    history_act(s, sculpture_undo, "undo");
+    if (!s->step || !ready)
+        return;
+    const char *what = s->step;
+    s->step = nullptr;
+    history_report(s, what, sculpture_step_end(s->piece), s->step_begun_ns);
 }
 
-void redo(station *s)
+void step_begin(station *s, history_way way, const char *what)
 {
     between_strokes(s);
-    history_act(s, sculpture_redo, "redo");
+    s->step_begun_ns = clock_ns(s);
+    s->step = what;
+    sculpture_step_begin(s->piece, way, 0);
+    step_end_if(s, sculpture_step_is_ready(s->piece));
 }
+
+void undo(station *s) { step_begin(s, HISTORY_BACK, "undo"); }
+void redo(station *s) { step_begin(s, HISTORY_FORTH, "redo"); }
+void go_to_fork(station *s) { step_begin(s, HISTORY_FORK, "fork"); }
 
 /* --- presses --- */
 
@@ -170,6 +195,10 @@ void press(station *s, meaning m, bool down)
     case MEANS_REDO:
         if (down)
             redo(s);
+        break;
+    case MEANS_FORK:
+        if (down)
+            go_to_fork(s);
         break;
     case MEANS_CLUTCH: s->clutch = down; break;
     case MEANS_NEXT_ACTION:
@@ -248,7 +277,21 @@ void grid_step(station *s)
         std::vector<stroke_dab> dabs;
         stroke_step(&s->path, s->tool.pose, seconds, hand_rule(&s->tool), &dabs);
         dabs_apply(s, dabs);
+        if (s->next_us - s->part_us >= STATION_PART_US) {
+            sculpture_part(s->piece);
+            s->part_us = s->next_us;
+        }
     }
+}
+
+/* What the keeper has to say, once. */
+void attend(station *s)
+{
+    sculpture_attend(s->piece);
+    const std::string trouble = sculpture_facts(s->piece).trouble.text;
+    if (trouble != s->trouble_told && !trouble.empty())
+        tell(s, trouble);
+    s->trouble_told = trouble;
 }
 
 /* --- commands, by what they concern --- */
@@ -355,6 +398,7 @@ void do_picture(station *s, const command &c)
         break;
     case COMMAND_LIGHT_OFF: v.lights[index].lit = false; break;
     case COMMAND_LIGHTS_SHOWN: v.lights_shown = index == 1; break;
+    case COMMAND_KEEPING_SHOWN: v.keeping_shown = index == 1; break;
     case COMMAND_MATERIAL:
         v.material = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
         break;
@@ -403,6 +447,7 @@ void do_now(station *s, const command &c)
     case COMMAND_APPLY: apply_hold(s, c.number[0] == 1); break;
     case COMMAND_UNDO: undo(s); break;
     case COMMAND_REDO: redo(s); break;
+    case COMMAND_FORK: go_to_fork(s); break;
     case COMMAND_CLEAR:
         between_strokes(s);
         history_act(s, sculpture_clear, "clear");
@@ -442,6 +487,7 @@ void station_close(station *s)
 {
     if (!s)
         return;
+    step_end_if(s, true);
     between_strokes(s);
     hand_finish(&s->tool);
     delete s;
@@ -449,16 +495,25 @@ void station_close(station *s)
 
 void station_advance(station *s, int64_t time_us)
 {
+    step_end_if(s, true);
     for (; s->next_us <= time_us; s->next_us += STATION_STEP_US)
         grid_step(s);
     s->now_us = std::max(s->now_us, time_us);
+    attend(s);
+}
+
+bool station_is_waiting(station *s)
+{
+    step_end_if(s, sculpture_step_is_ready(s->piece));
+    return s->step != nullptr;
 }
 
 void station_do(station *s, const command &c)
 {
     assert(c.time_us >= s->now_us);
     station_advance(s, c.time_us);
-    s->recording.push_back(c);
+    if (s->ears.records)
+        s->recording.push_back(c);
     do_now(s, c);
 }
 
@@ -473,6 +528,10 @@ snapshot station_snapshot(const station *s)
     }
     out.tool_world = hand_frame(&h, h.pose);
     out.tool_working = s->applying;
+    const keeper_facts facts = sculpture_facts(s->piece);
+    out.keeping = facts.medium != HISTORY_MEDIUM_GOOD              ? SNAPSHOT_KEEPING_FAILS
+                  : facts.put != facts.kept || s->piece->in_stroke ? SNAPSHOT_KEEPING_UNDER_WAY
+                                                                   : SNAPSHOT_KEEPING_ALL;
     if (h.shape == HAND_FREEFORM && h.has_freeform) {
         out.tool_surface = &h.made_surface;
         out.tool_middle = {h.made.middle[0], h.made.middle[1], h.made.middle[2]};

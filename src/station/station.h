@@ -31,6 +31,7 @@
 
 constexpr int64_t STATION_STEP_US = 4000; /* 250 a second: twice the SpaceNavigator's own rate */
 constexpr int64_t STATION_DAB_US = 40000; /* a tool at rest dabs so often */
+constexpr int64_t STATION_PART_US = 60000; /* a stroke is handed on so often: kept within 100 ms and a sync */
 constexpr int STATION_DABS_A_STEP = 256;  /* a tool that jumps far in one step is dabbed no denser than this */
 
 struct station;
@@ -46,6 +47,7 @@ struct station_dab {
 
 struct station_ears {
     bool counts = false;                           /* count dabs as the paper does: takes longer than the dabs */
+    bool records = false;                          /* remember everything that is done (station_recording): grows */
     std::function<int64_t()> clock_ns;             /* for the two times above; none: they stay 0 */
     std::function<void(const station_dab &)> dab;  /* after every dab */
     std::function<void(status, int64_t history_ns)> stroke; /* after every stroke, undo, redo and clear */
@@ -56,8 +58,11 @@ void station_close(station *s); /* ends a stroke under way; NULL is fine */
 
 /* Moves to time_us, then executes c at its own time. */
 void station_do(station *s, const command &c);
-/* Moves everything up to and including time_us. */
+/* Moves everything up to and including time_us. Once a frame at the least. */
 void station_advance(station *s, int64_t time_us);
+/* Does a step through history (undo, redo, fork) still wait for the medium? Until then time stands still for the clay:
+   what comes in waits. station_do and station_advance do not ask, they wait themselves. */
+bool station_is_waiting(station *s);
 
 snapshot station_snapshot(const station *s);
 bool station_is_applying(const station *s);
@@ -67,7 +72,7 @@ bool station_picture_take(station *s, std::string *name_out);
 bool station_export_take(station *s, std::string *name_out);
 /* Sentences for the person, oldest first; false when none. */
 bool station_message_take(station *s, std::string *text_out);
-/* Everything done since opening, as a tape's commands would have it. */
+/* Everything done since opening, as a tape's commands would have it; nothing where nobody asked for it. */
 const std::vector<command> &station_recording(const station *s);
 
 #endif

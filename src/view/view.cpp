@@ -289,6 +289,7 @@ bool view_draw(view *v, const snapshot &s, int width, int height, std::string *t
     marker_draw_box(v->markers, s, p);
     marker_draw_lights(v->markers, s, p);
     marker_draw_tool(v->markers, s, p, s.tool_surface ? &v->tool : nullptr, height);
+    marker_draw_keeping(v->markers, s, p);
     glUseProgram(0);
     canvas_end(&v->picture);
     upload_drawn(&v->clay);

@@ -3,6 +3,7 @@
 
 #include "exchange/exchange.h"
 #include "station/command.h"
+#include "station/shelf.h"
 #include "station/station.h"
 
 #include <CLI/CLI.hpp>
@@ -61,11 +62,18 @@ std::vector<std::string> vectors_here()
     return names;
 }
 
+CLI::Validator a_piece() { return CLI::Range(1, SHELF_PIECES_MAX); }
+
 void replay_options(CLI::App *app, arguments *a)
 {
     app->add_option("TAPE", a->input, "the tape to replay")->required();
     app->add_option("--settings", a->settings, "a tape of settings, done before it at time 0");
-    app->add_option("--store", a->store, "folder that keeps the sculpture and its undo-files; made when absent");
+    CLI::Option *store =
+        app->add_option("--store", a->store, "folder that keeps the sculpture and its undo-files; made when absent");
+    CLI::Option *shelf =
+        app->add_option("--shelf", a->shelf, "folder of a shelf, a piece of which is to be worked on")->excludes(store);
+    CLI::Option *piece = app->add_option("--piece", a->piece, "number of that piece")->check(a_piece())->needs(shelf);
+    shelf->needs(piece);
     app->add_option("--png", a->picture, "writes a picture of the end");
     app->add_option("--pictures", a->pictures, "folder for the pictures the tape asks for");
     app->add_option("--export", a->exports, "writes the end as a file: " + exchange_endings())
@@ -78,11 +86,39 @@ void replay_options(CLI::App *app, arguments *a)
         ->check(a_number());
     app->add_option("--width", a->width, "width of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
     app->add_option("--height", a->height, "height of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
-    app->add_option("--ring", a->ring, "undo-files kept in the store")->check(CLI::Range(1, +HISTORY_RING_MAX));
+    app->add_option("--ring", a->ring, "strokes that can be undone")->check(CLI::Range(1, +HISTORY_STROKES_MAX));
+    app->add_option("--budget", a->budget_mb, "MiB that undo-files may take together")->check(CLI::Range(8, 1 << 20));
+    app->add_flag("--kept", a->kept, "says \"kept RECORD STROKE DIGEST\" as soon as that state is on the medium");
     app->add_option("--vectors", a->vectors, "instructions to compute with; the outcome is the same with all")
         ->check(CLI::IsMember(vectors_here()));
     app->add_option("--hands", a->hands, "threads that work on the clay; 0: as the machine has them")
         ->check(CLI::Range(0, ARGUMENTS_HANDS_MAX));
+}
+
+void shelf_act(CLI::App *shelf, arguments *a, arguments_act act, const char *word, const char *does)
+{
+    CLI::App *app = shelf->add_subcommand(word, does);
+    app->callback([a, act] { a->act = act; });
+    if (act != ARGUMENTS_SHELF_NEW && act != ARGUMENTS_SHELF_MAKE_ROOM)
+        app->add_option("N", a->piece, "number of the piece")->required()->check(a_piece());
+    if (act == ARGUMENTS_SHELF_NEW || act == ARGUMENTS_SHELF_RENAME)
+        app->add_option("NAME", a->name, "its name, up to 100 bytes")->required();
+    if (act == ARGUMENTS_SHELF_MAKE_ROOM)
+        app->add_option("MIB", a->room_mib, "to be free on the medium")->required()->check(CLI::Range(1, 1 << 30));
+}
+
+void shelf_acts(CLI::App *app, arguments *a)
+{
+    app->add_option("FOLDER", a->shelf, "the shelf")->required();
+    app->require_subcommand(0, 1);
+    shelf_act(app, a, ARGUMENTS_SHELF_NEW, "new", "makes a piece, and the shelf where there is none");
+    shelf_act(app, a, ARGUMENTS_SHELF_RENAME, "rename", "gives a piece another name");
+    shelf_act(app, a, ARGUMENTS_SHELF_DUPLICATE, "duplicate", "makes a piece that is a copy of another");
+    shelf_act(app, a, ARGUMENTS_SHELF_SET_ASIDE, "set-aside", "takes a piece from the shelf, but keeps it");
+    shelf_act(app, a, ARGUMENTS_SHELF_BRING_BACK, "bring-back", "puts what was set aside or discarded on the shelf");
+    shelf_act(app, a, ARGUMENTS_SHELF_DISCARD, "discard", "gives up what was set aside, when room is needed");
+    shelf_act(app, a, ARGUMENTS_SHELF_MAKE_ROOM, "make-room",
+              "removes what was discarded, oldest first, until enough is free");
 }
 
 } // namespace
@@ -104,8 +140,13 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
     exporting->add_option("FILE", a.exports, "file to write: " + exchange_endings())->required()->expected(1);
     CLI::App *info = app.add_subcommand("info", "says what a sculpture file holds");
     info->add_option("FILE", a.input, "a .glaise file, or a store's \"field\"")->required();
+    CLI::App *check = app.add_subcommand("check", "looks through a store, changes nothing");
+    check->add_option("STORE", a.input, "folder that a sculpture is kept in")->required();
+    check->add_flag("--repair", a.repair, "writes what can be had of it as a new store, STORE.repaired");
+    CLI::App *shelf = app.add_subcommand("shelf", "lists the pieces of a shelf, or does something with one");
+    shelf_acts(shelf, &a);
     if (count > 1 && !task_is_known(app, words[1])) {
-        std::cerr << "glaise: " << words[1] << ": expected run, replay, export or info (glaise --help)\n";
+        std::cerr << "glaise: " << words[1] << ": expected run, replay, export, info, check or shelf (glaise --help)\n";
         *exit_out = ARGUMENTS_EXIT_WRONG;
         return std::nullopt;
     }
@@ -118,7 +159,9 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
     a.task = run->parsed()         ? ARGUMENTS_RUN
              : replay->parsed()    ? ARGUMENTS_REPLAY
              : exporting->parsed() ? ARGUMENTS_EXPORT
-                                   : ARGUMENTS_INFO;
+             : info->parsed()      ? ARGUMENTS_INFO
+             : shelf->parsed()     ? ARGUMENTS_SHELF
+                                   : ARGUMENTS_CHECK;
     if (a.task == ARGUMENTS_RUN && a.pictures.empty())
         a.pictures = "out";
     return a;

@@ -17,7 +17,8 @@ std::string write(still &moment, const std::string &path, const std::function<vo
     };
     if (store_export(path, through, &text))
         return "";
-    return outcome.text.empty() || outcome.state == STATUS_IO ? text : path + ": " + outcome.text;
+    const bool world = outcome.state == STATUS_IO || outcome.state == STATUS_NO_SPACE;
+    return outcome.text.empty() || world ? text : path + ": " + outcome.text;
 }
 
 void end(outbox_entry *e)

@@ -3,7 +3,9 @@
 
 #include "exchange/exchange.h"
 #include "station/crew_of_threads.h"
+#include "station/history_thread.h"
 #include "station/opening.h"
+#include "station/shelf.h"
 #include "wiring/outbox.h"
 #include "wiring/playlist.h"
 #include "wiring/progress.h"
@@ -22,6 +24,7 @@
 namespace {
 
 constexpr unsigned HANDS_USUAL_MAX = 4; /* more share too little of a dab's clay each */
+constexpr uint64_t SCRATCH_FILE_BYTES = 65536;
 constexpr int64_t FRAME_US = 16667; /* the replay looks up as often as a 60 Hz screen would */
 
 int64_t clock_ns()
@@ -62,6 +65,7 @@ struct performance {
     store *folder = nullptr;
     scratch_store scratch; /* where no folder is wanted */
     crew_of_threads *crew = nullptr;
+    history_thread *keeping = nullptr;
     station *desk = nullptr;
     stage *scene = nullptr;
     bool scene_tried = false;
@@ -107,6 +111,32 @@ void work_as_wanted(performance *p)
     c->crew = p->crew ? crew_of_threads_port(p->crew) : nullptr;
 }
 
+/* Where nothing is to last, undo-files need not be large. */
+history_settings settings_of(const arguments &a)
+{
+    history_settings s = HISTORY_SETTINGS_DEFAULT;
+    s.strokes = static_cast<uint32_t>(a.ring);
+    s.budget_bytes = static_cast<uint64_t>(a.budget_mb) << 20;
+    if (a.store.empty())
+        s.file_bytes = SCRATCH_FILE_BYTES;
+    return s;
+}
+
+/* History gets a thread of its own, where there is one to be had. */
+void keep_beside(performance *p)
+{
+    std::function<void(const keeper_facts &)> told;
+    if (p->wanted->kept)
+        told = [step_mm = p->piece->step_mm](const keeper_facts &facts) {
+            const uint64_t digest = sculpture_digest_of(step_mm, facts.kept_digest);
+            std::printf("kept %llu %llu %016llx\n", static_cast<unsigned long long>(facts.kept),
+                        static_cast<unsigned long long>(facts.kept_cursor),
+                        static_cast<unsigned long long>(digest));
+            std::fflush(stdout);
+        };
+    p->keeping = history_thread_open(p->piece.get(), std::move(told));
+}
+
 bool performance_open(performance *p, double step_mm)
 {
     const arguments &a = *p->wanted;
@@ -120,7 +150,7 @@ bool performance_open(performance *p, double step_mm)
             return false;
         }
     }
-    opening *reading = opening_begin(p->piece.get(), port, static_cast<uint32_t>(a.ring), step_mm);
+    opening *reading = opening_begin(p->piece.get(), port, settings_of(a), step_mm);
     await("opening", [reading] { return opening_is_done(reading); }, [reading] { return opening_part(reading); });
     const status s = opening_end(reading, &finding);
     if (finding.text[0])
@@ -131,10 +161,12 @@ bool performance_open(performance *p, double step_mm)
     }
     p->open = true;
     work_as_wanted(p);
+    keep_beside(p);
     p->counts.every_dab = !a.statistics.empty();
     station_ears ears;
     ears.clock_ns = clock_ns;
     ears.counts = p->counts.every_dab;
+    ears.records = !a.record.empty();
     ears.dab = [p](const station_dab &d) {
         statistics_dab(&p->counts, d, p->piece.get());
         if (d.outcome != STATUS_OK)
@@ -149,15 +181,22 @@ bool performance_open(performance *p, double step_mm)
     return true;
 }
 
-void picture_take(performance *p, const std::string &path)
+/* Answers a sentence when it is tried first and there is none. */
+std::string scene_open(performance *p)
 {
     std::string text;
     if (!p->scene && !p->scene_tried) {
         p->scene_tried = true;
         p->scene = stage_open(&text);
-        if (!p->scene)
-            trouble(p, "no pictures: " + text);
     }
+    return text;
+}
+
+void picture_take(performance *p, const std::string &path)
+{
+    std::string text = scene_open(p);
+    if (!text.empty())
+        trouble(p, "no pictures: " + text);
     if (!p->scene)
         return;
     if (stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), p->wanted->width, p->wanted->height, path,
@@ -165,6 +204,17 @@ void picture_take(performance *p, const std::string &path)
         p->written.push_back(path);
     else
         trouble(p, path + ": " + text);
+}
+
+/* A piece can do without: nothing has failed then. */
+void thumbnail_take(performance *p)
+{
+    std::string text = scene_open(p);
+    if (p->scene && stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), SHELF_THUMBNAIL_WIDTH_PIXELS,
+                                  SHELF_THUMBNAIL_HEIGHT_PIXELS, p->wanted->thumbnail, &text))
+        return;
+    if (!text.empty())
+        std::fprintf(stderr, "glaise: no thumbnail: %s\n", text.c_str());
 }
 
 /* Files that are done; all of them, if waited for. */
@@ -253,6 +303,8 @@ void results_write(performance *p)
     const arguments &a = *p->wanted;
     if (!a.picture.empty())
         picture_take(p, a.picture);
+    if (!a.thumbnail.empty())
+        thumbnail_take(p);
     pieces_export(p);
     if (!a.statistics.empty())
         text_export(p, a.statistics, statistics_json(p->counts, p->piece.get()));
@@ -265,6 +317,7 @@ void performance_close(performance *p)
     collect(p, true); /* they hold on to the piece */
     stage_close(p->scene);
     station_close(p->desk);
+    history_thread_close(p->keeping);
     if (p->open) {
         status s = sculpture_close(p->piece.get());
         if (s != STATUS_OK)
@@ -338,7 +391,7 @@ static int piece_read(sculpture *piece, const std::string &path)
 {
     history_finding finding;
     std::string text;
-    status s = sculpture_open(piece, nullptr, CAPACITY_BRICKS, 1, SCULPTURE_STEP_MM_DEFAULT, &finding);
+    status s = sculpture_open(piece, nullptr, CAPACITY_BRICKS, nullptr, SCULPTURE_STEP_MM_DEFAULT, &finding);
     if (s != STATUS_OK)
         return complain(ARGUMENTS_EXIT_TROUBLE, status_text(s));
     exchange_outcome outcome;

@@ -64,9 +64,16 @@ status port_remove(void *self, const char *name)
     return STATUS_OK;
 }
 
+status port_list(void *self, void (*take)(void *into, const char *name), void *into)
+{
+    for (const auto &[name, bytes] : files_of(self))
+        take(into, name.c_str());
+    return STATUS_OK;
+}
+
 } // namespace
 
 byte_store scratch_store_port(scratch_store *s)
 {
-    return {s, port_read, port_write, port_size, port_truncate, port_sync, port_rename, port_remove};
+    return {s, port_read, port_write, port_size, port_truncate, port_sync, port_rename, port_remove, port_list};
 }

@@ -17,7 +17,11 @@ struct store {
 namespace {
 
 storage *of(void *self) { return &static_cast<store *>(self)->files; }
-status answer(int error) { return error == 0 ? STATUS_OK : STATUS_IO; }
+status answer(int error)
+{
+    const bool full = error == -ENOSPC || error == -EDQUOT || error == -EFBIG;
+    return error == 0 ? STATUS_OK : full ? STATUS_NO_SPACE : STATUS_IO;
+}
 
 status port_read(void *self, const char *name, uint64_t offset, void *bytes, size_t n, size_t *got_out)
 {
@@ -41,6 +45,10 @@ status port_truncate(void *self, const char *name, uint64_t bytes)
 status port_sync(void *self, const char *name) { return answer(storage_sync(of(self), name)); }
 status port_rename(void *self, const char *from, const char *to) { return answer(storage_rename(of(self), from, to)); }
 status port_remove(void *self, const char *name) { return answer(storage_remove(of(self), name)); }
+status port_list(void *self, void (*take)(void *into, const char *name), void *into)
+{
+    return answer(storage_list(of(self), take, into));
+}
 
 status sink_write(void *self, const void *bytes, size_t n)
 {
@@ -76,7 +84,8 @@ store *store_open(const std::string &folder, byte_store *port_out, std::string *
         delete s;
         return nullptr;
     }
-    *port_out = {s, port_read, port_write, port_size, port_truncate, port_sync, port_rename, port_remove};
+    *port_out = {s, port_read, port_write, port_size, port_truncate, port_sync, port_rename, port_remove,
+                 port_list};
     return s;
 }
 

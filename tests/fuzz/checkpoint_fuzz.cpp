@@ -3,7 +3,8 @@
  * Goal    No bytes make the reader of sculpture files read outside them, allocate more than they could hold, or change
  *         the clay without saying STATUS_OK; and what it accepts is a field whose file is those bytes and no others.
  * Method  The first byte chooses: the rest are a file; a file whose checksums are put right; or corners to write into
- *         clay, whose file must pass, and is then changed in up to four places, its checksums perhaps put right.
+ *         clay, whose file, of either version, must pass, and is then changed in up to four places, its checksums
+ *         perhaps put right.
  */
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +19,14 @@
 
 namespace {
 
-enum { BRICKS = 32, HEADER = CHECKPOINT_HEADER_BYTES, CORNER_PROGRAM_BYTES = 6, CHANGE_BYTES = 3, CHANGES_MAX = 4 };
+enum {
+    BRICKS = 32,
+    HEADER = CHECKPOINT_HEADER_BYTES,
+    HEADER_1 = 64,
+    CORNER_PROGRAM_BYTES = 6,
+    CHANGE_BYTES = 3,
+    CHANGES_MAX = 4
+};
 
 using byte_string = std::vector<uint8_t>;
 
@@ -47,12 +55,19 @@ status give(void *self, uint64_t offset, void *bytes, size_t n, size_t *got)
     return STATUS_OK;
 }
 
+/* Bytes of the header that the version has; that of version 1 where they say so. */
+size_t header_of(const byte_string &b)
+{
+    return b.size() >= HEADER_1 && byte_order_get_u32(&b[8]) == 1 ? size_t{HEADER_1} : size_t{HEADER};
+}
+
 void put_checksums_right(byte_string &b)
 {
-    if (b.size() < HEADER)
+    const size_t header = header_of(b);
+    if (b.size() < header)
         return;
-    byte_order_put_u64(&b[HEADER - 8], digest_bytes(b.data(), HEADER - 8, 0));
-    for (size_t at = HEADER; at + 88 <= b.size();) {
+    byte_order_put_u64(&b[header - 8], digest_bytes(b.data(), header - 8, 0));
+    for (size_t at = header; at + 88 <= b.size();) {
         const uint64_t vouched = 80 + uint64_t{8} * byte_order_get_u32(&b[at + 12]);
         if (vouched + 8 > b.size() - at)
             return;
@@ -65,6 +80,18 @@ byte_string file_of(const clay &c, const checkpoint_facts &facts)
 {
     byte_string out;
     require(checkpoint_write(&c, &facts, keep, &out) == STATUS_OK);
+    return out;
+}
+
+/* The same field as version 1 wrote it: the header is shorter, and the cursor was the sequence. */
+byte_string as_version_1(const byte_string &file, uint64_t cursor)
+{
+    byte_string out(file.begin(), file.begin() + HEADER_1);
+    byte_order_put_u32(&out[8], 1);
+    byte_order_put_u32(&out[12], HEADER_1);
+    byte_order_put_u64(&out[24], cursor);
+    byte_order_put_u64(&out[HEADER_1 - 8], digest_bytes(out.data(), HEADER_1 - 8, 0));
+    out.insert(out.end(), file.begin() + HEADER, file.end());
     return out;
 }
 
@@ -90,7 +117,9 @@ status read_file(byte_string file)
     const status s = checkpoint_read(&c, &facts, give, &file, &trouble);
     if (s == STATUS_OK) {
         require(clay_is_valid(&c) && clay_digest(&c) == facts.digest && clay_brick_count(&c) == facts.bricks);
-        require(file_of(c, facts) == file);
+        const bool first_version = byte_order_get_u32(&file[8]) == 1;
+        const byte_string again = file_of(c, facts);
+        require((first_version ? as_version_1(again, facts.cursor) : again) == file);
     } else {
         require(clay_digest(&c) == digest && trouble.offset <= file.size() && trouble.expected[0] != '\0');
     }
@@ -113,9 +142,19 @@ void make_and_spoil(const uint8_t *bytes, size_t size)
     clay c;
     require(clay_init(&c, BRICKS) == STATUS_OK);
     write_corners(c, bytes + head, size - head);
-    const checkpoint_facts facts = {.step_mm = 1, .sequence = bytes[0], .dab = 2, .bricks = 0, .digest = 0};
+    const checkpoint_facts facts = {.version = 0,
+                                    .step_mm = 1,
+                                    .sequence = bytes[0],
+                                    .cursor = bytes[0] / 2u,
+                                    .tip = bytes[0],
+                                    .seal = 7,
+                                    .dab = 2,
+                                    .bricks = 0,
+                                    .digest = clay_digest(&c)};
     byte_string file = file_of(c, facts);
     clay_finish(&c);
+    if (bytes[0] & 8)
+        file = as_version_1(file, facts.cursor);
     require(read_file(file) == STATUS_OK);
     spoil(file, bytes + 1, 1 + (bytes[0] >> 1) % CHANGES_MAX);
     if (bytes[0] & 1)

@@ -24,7 +24,8 @@ constexpr size_t PLAYED_COMMANDS_MAX = 200;
 constexpr double TOOL_STEPS_MAX = 8, REACH_STEPS_MAX = 10; /* larger ones cost their cube */
 constexpr double TOOL_STEPS_ABSURD = 500;                  /* refused before a corner is looked at */
 constexpr uint64_t VISITED_MAX = 1000000;                  /* corners in one performance */
-constexpr uint32_t BRICKS = 60, RING = 3;
+constexpr uint32_t BRICKS = 60;
+constexpr history_settings settings = {3, RING_FILE_BYTES_MIN, 1 << 24, 1 << 24};
 
 void require(bool truth)
 {
@@ -89,7 +90,7 @@ ending play(const tape &t, int64_t frame_us)
     byte_store port = scratch_store_port(&scratch);
     auto piece = std::make_unique<sculpture>();
     history_finding finding;
-    require(sculpture_open(piece.get(), &port, BRICKS, RING, t.step_mm, &finding) == STATUS_OK);
+    require(sculpture_open(piece.get(), &port, BRICKS, &settings, t.step_mm, &finding) == STATUS_OK);
     uint64_t visited = 0;
     station_ears ears;
     ears.dab = [&](const station_dab &d) { visited += d.counts.tool.visited; };

@@ -22,6 +22,8 @@
 namespace {
 
 enum { BRICKS = 2500, RING = 12, REACH = 18 };
+/* Branches that were left take room in it too. */
+constexpr history_settings small_ring = {6 * RING, 1 << 16, 1 << 26, 1 << 24};
 
 struct studio {
     std::unique_ptr<sculpture> s = std::make_unique<sculpture>();
@@ -40,7 +42,7 @@ void studio_open(studio &x)
 {
     history_finding finding;
     const byte_store store = x.disk.port();
-    ASSERT_EQ(sculpture_open(x.s.get(), &store, BRICKS, RING, x.step_mm, &finding), STATUS_OK) << finding.text;
+    ASSERT_EQ(sculpture_open(x.s.get(), &store, BRICKS, &small_ring, x.step_mm, &finding), STATUS_OK) << finding.text;
     ASSERT_STREQ(finding.text, "");
 }
 
@@ -265,12 +267,13 @@ void session(uint64_t seed, double step_mm, int strokes)
             past.push_back(after);
             x.at_newest = true;
         }
-        if (past.size() > RING + 1) /* older ones the ring has let go */
+        if (past.size() > RING + 1) /* older ones the ring may have let go */
             past.erase(past.begin());
         if (past.size() > 1 && seeded_chance(x.chance, 0.4)) {
             ASSERT_NO_FATAL_FAILURE(back_and_forth(x, past));
         }
         ASSERT_NO_FATAL_FAILURE(sometimes(x, past));
+        sculpture_attend(x.s.get());
         if (past.size() > RING + 1)
             past.erase(past.begin());
     }

@@ -171,14 +171,14 @@ TEST(change_keep, answers_the_same_image_again)
     pages none = {};
     ASSERT_EQ(change_init(&c, 2), STATUS_OK);
     uint32_t a, b;
-    ASSERT_EQ(change_keep(&c, &none, {1, 2, 3}, nullptr, &a), STATUS_OK);
-    ASSERT_EQ(change_keep(&c, &none, {1, 2, 3}, nullptr, &b), STATUS_OK);
+    ASSERT_EQ(change_keep(&c, &none, {1, 2, 3}, 0, nullptr, &a), STATUS_OK);
+    ASSERT_EQ(change_keep(&c, &none, {1, 2, 3}, 0, nullptr, &b), STATUS_OK);
     EXPECT_EQ(a, b);
-    ASSERT_EQ(change_keep(&c, &none, {1, 2, 4}, nullptr, &b), STATUS_OK);
+    ASSERT_EQ(change_keep(&c, &none, {1, 2, 4}, 0, nullptr, &b), STATUS_OK);
     EXPECT_NE(a, b);
-    EXPECT_EQ(change_keep(&c, &none, {1, 2, 5}, nullptr, &b), STATUS_POOL_FULL);
+    EXPECT_EQ(change_keep(&c, &none, {1, 2, 5}, 0, nullptr, &b), STATUS_POOL_FULL);
     EXPECT_EQ(change_count(&c), 2u);
-    EXPECT_EQ(change_keep(&c, &none, {1, 2, 3}, nullptr, &b), STATUS_OK) << "full, but this one is there";
+    EXPECT_EQ(change_keep(&c, &none, {1, 2, 3}, 0, nullptr, &b), STATUS_OK) << "full, but this one is there";
     change_finish(&c);
 }
 

@@ -34,7 +34,7 @@ held_sculpture opened(double step = step_mm)
 {
     auto s = std::make_unique<sculpture>();
     history_finding finding;
-    const status state = sculpture_open(s.get(), nullptr, 512, HISTORY_RING_DEFAULT, step, &finding);
+    const status state = sculpture_open(s.get(), nullptr, 512, nullptr, step, &finding);
     if (state != STATUS_OK)
         throw std::runtime_error(status_text(state));
     return held_sculpture(s.release());
@@ -248,8 +248,9 @@ TEST(exchange, later_version_is_said_to_be_later)
     const held_sculpture s = opened();
     bucket b = native_file_of(*s);
     b.bytes[8] = CHECKPOINT_VERSION + 1;
-    const uint64_t sum = digest_bytes(b.bytes.data(), 56, 0);
-    std::memcpy(&b.bytes[56], &sum, sizeof sum);
+    constexpr size_t vouched = CHECKPOINT_HEADER_BYTES - 8;
+    const uint64_t sum = digest_bytes(b.bytes.data(), vouched, 0);
+    std::memcpy(&b.bytes[vouched], &sum, sizeof sum);
     expect_refused(*s, b, "later version");
     const exchange_outcome outcome = exchange_read(*s, bucket_get, &b);
     EXPECT_EQ(outcome.state, STATUS_NEWER);
@@ -290,7 +291,7 @@ TEST(exchange, info_tells_the_facts)
     bucket b = native_file_of(*s);
     const exchange_outcome outcome = exchange_info(bucket_get, &b);
     ASSERT_EQ(outcome.state, STATUS_OK) << outcome.text;
-    EXPECT_EQ(line_of(outcome.text, "version"), "version 1");
+    EXPECT_EQ(line_of(outcome.text, "version"), "version 2");
     EXPECT_EQ(line_of(outcome.text, "step"), "step    0.25 mm");
     EXPECT_EQ(line_of(outcome.text, "corners"), "corners " + std::to_string(stored));
     /* Stored where the distance from (1, 0, -2) is under 7.5. */

@@ -98,7 +98,7 @@ handmade handmade_ball(const point &middle, double radius, int depth)
     return h;
 }
 
-handmade handmade_torus(const point &middle, double ring, double tube, int around, int across)
+handmade handmade_torus(const point &middle, double loop, double tube, int around, int across)
 {
     handmade h;
     const double turn = 2 * std::acos(-1.0);
@@ -106,7 +106,7 @@ handmade handmade_torus(const point &middle, double ring, double tube, int aroun
         for (int v = 0; v < across; v++) {
             const double a = turn * u / around, b = turn * v / across;
             const point out = {std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)};
-            const double x = middle[0] + ring * std::cos(a), y = middle[1] + ring * std::sin(a);
+            const double x = middle[0] + loop * std::cos(a), y = middle[1] + loop * std::sin(a);
             add_vertex(h, {x + tube * out[0], y + tube * out[1], middle[2] + tube * out[2]}, out);
         }
     for (int u = 0; u < around; u++)

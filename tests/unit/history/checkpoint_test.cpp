@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: the field comes back bit for bit, whole or not at all, and no bytes lead anywhere but to a field or a refusal
  *       that says where.
- * Method: fields of chance against a model that is not clay; bytes looked up by the table in the header; every flip and
- *         cut of a small file; forged bricks under sound checksums; sources and sinks that fail or give little. */
+ * Method: fields of chance against a model that is not clay; bytes looked up by the table in the header, and laid by
+ *         it for version 1; every flip and cut of a small file; forged bricks under sound checksums; sources and sinks
+ *         that fail or give little. */
 #include "history/checkpoint.h"
 
 #include "clay/digest.h"
+#include "clay/freeze.h"
 #include "history/byte_order.h"
 #include "tests/unit/history/piece.h"
 
@@ -48,12 +50,28 @@ status give(void *self, uint64_t offset, void *bytes, size_t n, size_t *got)
     return STATUS_OK;
 }
 
-constexpr checkpoint_facts usual = {.step_mm = 0.125, .sequence = 31, .dab = 400, .bricks = 0, .digest = 0};
+constexpr checkpoint_facts usual = {.version = 0,
+                                    .step_mm = 0.125,
+                                    .sequence = 31,
+                                    .cursor = 8,
+                                    .tip = 12,
+                                    .seal = 0x1122334455667788,
+                                    .dab = 400,
+                                    .bricks = 0,
+                                    .digest = 0};
+
+checkpoint_facts facts_of(const clay *c)
+{
+    checkpoint_facts f = usual;
+    f.digest = clay_digest(c);
+    return f;
+}
 
 bytes_kept written(const clay *c)
 {
     bytes_kept k;
-    EXPECT_EQ(checkpoint_write(c, &usual, keep, &k), STATUS_OK);
+    const checkpoint_facts f = facts_of(c);
+    EXPECT_EQ(checkpoint_write(c, &f, keep, &k), STATUS_OK);
     return k;
 }
 
@@ -95,6 +113,9 @@ TEST(checkpoint, field_comes_back)
     EXPECT_EQ(clay_digest(&to.c), clay_digest(&from.c));
     EXPECT_EQ(f.step_mm, usual.step_mm);
     EXPECT_EQ(f.sequence, usual.sequence);
+    EXPECT_EQ(f.cursor, usual.cursor);
+    EXPECT_EQ(f.tip, usual.tip);
+    EXPECT_EQ(f.seal, usual.seal);
     EXPECT_EQ(f.dab, usual.dab);
     EXPECT_EQ(f.digest, clay_digest(&from.c));
     EXPECT_EQ(f.bricks, clay_brick_count(&from.c));
@@ -121,17 +142,21 @@ TEST(checkpoint, bytes_are_those_of_the_table)
     piece_clay p;
     fill_small(&p.c);
     const std::vector<uint8_t> b = written(&p.c).bytes;
-    ASSERT_EQ(b.size(), 64u + 2 * 88 + 3 * 8);
+    ASSERT_EQ(b.size(), 96u + 2 * 88 + 3 * 8);
     EXPECT_EQ(std::memcmp(b.data(), "glaise\r\n", 8), 0);
-    EXPECT_EQ(byte_order_get_u32(&b[8]), 1u);
-    EXPECT_EQ(byte_order_get_u32(&b[12]), 64u);
+    EXPECT_EQ(byte_order_get_u32(&b[8]), 2u);
+    EXPECT_EQ(byte_order_get_u32(&b[12]), 96u);
     EXPECT_EQ(byte_order_get_double(&b[16]), 0.125);
     EXPECT_EQ(byte_order_get_u64(&b[24]), 31u);
     EXPECT_EQ(byte_order_get_u64(&b[32]), 400u);
     EXPECT_EQ(byte_order_get_u64(&b[40]), 2u);
     EXPECT_EQ(byte_order_get_u64(&b[48]), clay_digest(&p.c));
-    EXPECT_EQ(byte_order_get_u64(&b[56]), digest_bytes(b.data(), 56, 0));
-    const uint8_t *second = &b[64 + 88 + 8];
+    EXPECT_EQ(byte_order_get_u64(&b[56]), 8u);
+    EXPECT_EQ(byte_order_get_u64(&b[64]), 12u);
+    EXPECT_EQ(byte_order_get_u64(&b[72]), 0x1122334455667788u);
+    EXPECT_EQ(byte_order_get_u64(&b[80]), 0u);
+    EXPECT_EQ(byte_order_get_u64(&b[88]), digest_bytes(b.data(), 88, 0));
+    const uint8_t *second = &b[96 + 88 + 8];
     EXPECT_EQ(byte_order_get_u32(second + 8), 1u);
     EXPECT_EQ(byte_order_get_u32(second + 12), 2u);
     EXPECT_EQ(byte_order_get_u64(second + 16), 0b110u);
@@ -145,7 +170,7 @@ TEST(checkpoint, empty_clay_is_a_header)
 {
     piece_clay from, to;
     const bytes_kept k = written(&from.c);
-    EXPECT_EQ(k.bytes.size(), 64u);
+    EXPECT_EQ(k.bytes.size(), 96u);
     fill_small(&to.c);
     checkpoint_trouble why;
     ASSERT_EQ(read(&to.c, k, &why), STATUS_OK);
@@ -178,24 +203,133 @@ TEST(checkpoint, facts_alone_cost_no_more_than_a_block)
     EXPECT_EQ(f.step_mm, usual.step_mm);
 }
 
-TEST(checkpoint, before_a_change_is_as_if_written_before_it)
+TEST(checkpoint, written_bit_by_bit_it_is_the_same)
 {
-    seeded chance = {3};
-    for (int n = 0; n < 50; n++) {
-        piece_clay p;
-        piece_model model;
-        fill(&p.c, &model, static_cast<uint64_t>(n), 3);
-        const bytes_kept before = written(&p.c);
-        checkpoint_facts f = usual;
-        f.digest = clay_digest(&p.c);
-        clay_change_begin(&p.c);
-        for (int s = 0; s < 3; s++)
-            ASSERT_EQ(piece_write(&p.c, piece_stroke_random(chance, 300, 20)), STATUS_OK);
+    piece_clay p;
+    piece_model model;
+    fill(&p.c, &model, 5, 60);
+    const bytes_kept whole = written(&p.c);
+    const checkpoint_facts f = facts_of(&p.c);
+    for (const size_t slice : {size_t{1}, size_t{5000}, size_t{16384}, size_t{100000}, SIZE_MAX}) {
         bytes_kept k;
-        ASSERT_EQ(checkpoint_write_before(&p.c, &f, keep, &k), STATUS_OK);
-        ASSERT_EQ(k.bytes, before.bytes);
-        ASSERT_NE(written(&p.c).bytes, before.bytes);
+        auto w = std::make_unique<checkpoint_writer>();
+        checkpoint_writer_begin(w.get(), &p.c, &f, keep, &k);
+        size_t steps = 0;
+        for (bool done = false; !done; steps++) {
+            const size_t before = k.bytes.size() + w->used;
+            ASSERT_EQ(checkpoint_writer_step(w.get(), slice, &done), STATUS_OK);
+            const size_t put = k.bytes.size() + w->used - before;
+            ASSERT_TRUE(done || put >= slice) << "as much as was asked for";
+            ASSERT_LE(put, slice < SIZE_MAX - 5000 ? slice + 4184 : SIZE_MAX) << "or a brick more";
+        }
+        EXPECT_EQ(k.bytes, whole.bytes) << slice;
+        EXPECT_EQ(steps > 1, slice < whole.bytes.size()) << slice;
     }
+}
+
+TEST(checkpoint, still_of_a_clay_that_goes_on_is_written_as_it_was)
+{
+    piece_clay p;
+    piece_model model;
+    seeded chance = {3};
+    fill(&p.c, &model, 5, 60);
+    const bytes_kept before = written(&p.c);
+    const checkpoint_facts f = facts_of(&p.c);
+    freeze still;
+    ASSERT_EQ(freeze_begin(&still, &p.c), STATUS_OK);
+    bytes_kept k;
+    auto w = std::make_unique<checkpoint_writer>();
+    checkpoint_writer_begin(w.get(), &still.still, &f, keep, &k);
+    for (bool done = false; !done;) {
+        ASSERT_EQ(checkpoint_writer_step(w.get(), 5000, &done), STATUS_OK);
+        ASSERT_EQ(piece_write(&p.c, piece_stroke_random(chance, 300, 20)), STATUS_OK);
+    }
+    freeze_end(&still);
+    EXPECT_EQ(k.bytes, before.bytes);
+    EXPECT_NE(written(&p.c).bytes, before.bytes);
+}
+
+/* --- version 1 --- */
+
+/* The two bricks of fill_small under the header that version 1 had, laid by hand. */
+bytes_kept laid_by_version_1(uint64_t digest)
+{
+    bytes_kept k;
+    std::vector<uint8_t> &b = k.bytes;
+    b.resize(64 + 2 * 88 + 3 * 8);
+    std::memcpy(b.data(), "glaise\r\n", 8);
+    byte_order_put_u32(&b[8], 1);
+    byte_order_put_u32(&b[12], 64);
+    byte_order_put_double(&b[16], 0.125);
+    byte_order_put_u64(&b[24], 31);
+    byte_order_put_u64(&b[32], 400);
+    byte_order_put_u64(&b[40], 2);
+    byte_order_put_u64(&b[48], digest);
+    byte_order_put_u64(&b[56], digest_bytes(b.data(), 56, 0));
+    uint8_t *first = &b[64], *second = &b[64 + 88 + 8];
+    byte_order_put_u32(first + 12, 1);
+    byte_order_put_u64(first + 16, 0b10);
+    byte_order_put_float(first + 80, 1.25f);
+    byte_order_put_u32(first + 84, 0x04030201);
+    byte_order_put_u64(first + 88, digest_bytes(first, 88, 0));
+    byte_order_put_u32(second + 8, 1);
+    byte_order_put_u32(second + 12, 2);
+    byte_order_put_u64(second + 16, 0b110);
+    byte_order_put_float(second + 80, 2.5f);
+    byte_order_put_float(second + 84, 3);
+    byte_order_put_u32(second + 88, 0x08070605);
+    byte_order_put_u64(second + 96, digest_bytes(second, 96, 0));
+    return k;
+}
+
+TEST(checkpoint, version_1_is_still_read)
+{
+    piece_clay from, to;
+    fill_small(&from.c);
+    bytes_kept k = laid_by_version_1(clay_digest(&from.c));
+    checkpoint_facts f;
+    checkpoint_trouble why;
+    ASSERT_EQ(checkpoint_read(&to.c, &f, give, &k, &why), STATUS_OK) << why.expected;
+    EXPECT_EQ(clay_digest(&to.c), clay_digest(&from.c));
+    for (int alone = 0; alone < 2; alone++) {
+        EXPECT_EQ(f.step_mm, 0.125);
+        EXPECT_EQ(f.cursor, 31u) << "its sequence was the stroke after which the clay stood";
+        EXPECT_EQ(f.tip, 31u);
+        EXPECT_EQ(f.sequence, 0u) << "no record had been written then";
+        EXPECT_EQ(f.seal, 0u);
+        EXPECT_EQ(f.dab, 400u);
+        EXPECT_EQ(f.bricks, 2u);
+        EXPECT_EQ(f.digest, clay_digest(&from.c));
+        ASSERT_EQ(checkpoint_read_facts(&f, give, &k, &why), STATUS_OK);
+    }
+    for (size_t bit = 0; bit < k.bytes.size() * 8; bit++) {
+        bytes_kept spoilt = k;
+        spoilt.bytes[bit / 8] ^= static_cast<uint8_t>(1u << bit % 8);
+        EXPECT_EQ(read(&to.c, spoilt, &why), STATUS_CORRUPT) << bit;
+    }
+    for (size_t length = 0; length < k.bytes.size(); length++) {
+        bytes_kept cut = k;
+        cut.bytes.resize(length);
+        EXPECT_EQ(read(&to.c, cut, &why), STATUS_CORRUPT) << length;
+    }
+    EXPECT_EQ(clay_digest(&to.c), clay_digest(&from.c)) << "and nothing changed meanwhile";
+}
+
+TEST(checkpoint, version_1_with_the_header_of_2_is_refused)
+{
+    piece_clay p;
+    fill_small(&p.c);
+    bytes_kept k = written(&p.c);
+    byte_order_put_u32(&k.bytes[8], 1);
+    byte_order_put_u64(&k.bytes[88], digest_bytes(k.bytes.data(), 88, 0));
+    checkpoint_trouble why;
+    piece_clay to;
+    EXPECT_EQ(read(&to.c, k, &why), STATUS_CORRUPT);
+    EXPECT_EQ(why.offset, 8u);
+    bytes_kept other = laid_by_version_1(clay_digest(&p.c));
+    byte_order_put_u32(&other.bytes[8], 2);
+    byte_order_put_u64(&other.bytes[56], digest_bytes(other.bytes.data(), 56, 0));
+    EXPECT_EQ(read(&to.c, other, &why), STATUS_CORRUPT);
 }
 
 /* --- dirt --- */
@@ -259,8 +393,8 @@ TEST(checkpoint, every_flip_and_cut_and_tail_is_refused)
 bytes_kept resealed(bytes_kept k)
 {
     std::vector<uint8_t> &b = k.bytes;
-    byte_order_put_u64(&b[56], digest_bytes(b.data(), 56, 0));
-    for (size_t at = 64; at + 88 <= b.size();) {
+    byte_order_put_u64(&b[88], digest_bytes(b.data(), 88, 0));
+    for (size_t at = 96; at + 88 <= b.size();) {
         const size_t vouched = 80 + size_t{8} * byte_order_get_u32(&b[at + 12]);
         if (at + vouched + 8 > b.size())
             break;
@@ -275,7 +409,7 @@ TEST(checkpoint, forged_files_are_refused)
     piece_clay p;
     fill_small(&p.c);
     const bytes_kept good = written(&p.c);
-    const size_t first = 64, second = 64 + 88 + 8;
+    const size_t first = 96, second = 96 + 88 + 8;
     struct forgery {
         const char *what;
         status expected;
@@ -291,6 +425,10 @@ TEST(checkpoint, forged_files_are_refused)
         {"one brick more", STATUS_CORRUPT, 40, 3, "rest of a brick"},
         {"more bricks than there may be", STATUS_POOL_FULL, 44, 1, "no more bricks"},
         {"another digest", STATUS_CORRUPT, 48, 1, "digest of the clay"},
+        {"a cursor beyond the tip", STATUS_CORRUPT, 56, 13, "a cursor up to the tip"},
+        {"a tip beyond any life", STATUS_CORRUPT, 68, 0x40000001, "a cursor up to the tip"},
+        {"a record beyond any life", STATUS_CORRUPT, 28, 0x40000001, "the number of a record"},
+        {"not zero", STATUS_CORRUPT, 84, 1, "zero"},
         {"no corners", STATUS_CORRUPT, first + 12, 0, "as many as the mask"},
         {"more corners than the mask has", STATUS_CORRUPT, first + 12, 2, "as many as the mask"},
         {"more corners than the last mask has", STATUS_CORRUPT, second + 12, 3, "as many as the mask"},
@@ -310,7 +448,7 @@ TEST(checkpoint, forged_files_are_refused)
         expect_refused(resealed(k), f.expected, f.what, f.words);
     }
     bytes_kept newer = good;
-    byte_order_put_u32(&newer.bytes[8], 2);
+    byte_order_put_u32(&newer.bytes[8], 3);
     expect_refused(newer, STATUS_CORRUPT, "a version whose checksum does not hold");
     expect_refused(resealed(newer), STATUS_NEWER, "a later version");
 }
@@ -320,10 +458,10 @@ TEST(checkpoint, trouble_says_where)
     piece_clay p, to;
     fill_small(&p.c);
     bytes_kept k = written(&p.c);
-    byte_order_put_u32(&k.bytes[64 + 8], 4); /* the first brick's key: now after the second's */
+    byte_order_put_u32(&k.bytes[96 + 8], 4); /* the first brick's key: now after the second's */
     checkpoint_trouble why;
     EXPECT_EQ(read(&to.c, resealed(k), &why), STATUS_CORRUPT);
-    EXPECT_EQ(why.offset, 64u + 88 + 8);
+    EXPECT_EQ(why.offset, 96u + 88 + 8);
     EXPECT_STREQ(why.expected, "a brick key above the one before");
 }
 

@@ -30,7 +30,21 @@ struct memory_store {
     std::set<std::string> unsynced, spoilt;
     std::string misuse; /* the first rule that was broken */
 
+    uint64_t most_bytes = UINT64_MAX; /* a file grows only as long as all of them together stay below this */
+
     byte_store port();
+    uint64_t held() const
+    {
+        uint64_t all = 0;
+        for (const auto &[name, bytes] : files)
+            all += bytes.size();
+        return all;
+    }
+    bool has(const std::string &name, uint64_t size) const
+    {
+        const auto at = files.find(name);
+        return at != files.end() && at->second.size() >= size;
+    }
 };
 
 inline memory_store &memory_store_of(void *self) { return *static_cast<memory_store *>(self); }
@@ -76,6 +90,9 @@ inline status memory_store_read(void *self, const char *name, uint64_t offset, v
 
 inline status memory_store_write(void *self, const char *name, uint64_t offset, const void *bytes, size_t n)
 {
+    memory_store &room = memory_store_of(self);
+    if (room.held() + n > room.most_bytes && !room.has(name, offset + n))
+        return STATUS_NO_SPACE;
     return memory_store_call(self, name, [&](memory_store &m, const std::string &file) {
         if (m.spoilt.count(file))
             memory_store_complain(m, "wrote to " + file + ", whose sync had failed");
@@ -125,10 +142,13 @@ inline status memory_store_rename(void *self, const char *from, const char *to)
     return memory_store_call(self, from, [&](memory_store &m, const std::string &file) {
         if (!m.files.count(file))
             memory_store_complain(m, "renamed " + file + ", which is not there");
-        if (m.unsynced.count(file) || m.spoilt.count(file))
+        const bool set_aside = std::string(to).find(".set-aside") != std::string::npos; /* whatever it holds */
+        if (!set_aside && (m.unsynced.count(file) || m.spoilt.count(file)))
             memory_store_complain(m, "renamed " + file + ", which is not synced");
         m.files[to] = m.files[file];
         m.files.erase(file);
+        m.unsynced.erase(file);
+        m.spoilt.erase(file);
         m.renames++;
     });
 }
@@ -142,6 +162,14 @@ inline status memory_store_remove(void *self, const char *name)
     });
 }
 
+inline status memory_store_list(void *self, void (*take)(void *into, const char *name), void *into)
+{
+    return memory_store_call(self, "list", [&](memory_store &m, const std::string &) {
+        for (const auto &[name, bytes] : m.files)
+            take(into, name.c_str());
+    });
+}
+
 inline byte_store memory_store::port()
 {
     return {this,
@@ -151,7 +179,8 @@ inline byte_store memory_store::port()
             memory_store_truncate,
             memory_store_sync,
             memory_store_rename,
-            memory_store_remove};
+            memory_store_remove,
+            memory_store_list};
 }
 
 #endif

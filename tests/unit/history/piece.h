@@ -130,51 +130,93 @@ inline uint64_t piece_digest(const piece_model &m)
     return clay_digest(&made.c);
 }
 
-/* Clay with its history on some store. */
+/* Small undo-files, so that strokes fill them. */
+struct piece_ring {
+    uint32_t strokes = HISTORY_STROKES_DEFAULT;
+    uint64_t file_bytes = RING_FILE_BYTES_MIN;
+    uint64_t budget_bytes = uint64_t{RING_FILE_BYTES_MIN} * 1000;
+};
+
+/* Clay with its history on some store, which does everything at once that a keeper does: keeps, and writes a checkpoint
+   as soon as one is due. */
 struct piece {
     clay c;
     history h;
     history_finding finding;
     status opened;
+    delta changed = {nullptr, 0, 0};
 
-    explicit piece(byte_store store, uint32_t ring = HISTORY_RING_DEFAULT, uint32_t bricks = PIECE_BRICKS)
+    explicit piece(byte_store store, piece_ring limits = {}, uint32_t bricks = PIECE_BRICKS)
     {
         EXPECT_EQ(clay_init(&c, bricks), STATUS_OK);
-        opened = history_open(&h, store, ring, 0.5, &c, &finding);
+        const history_settings settings = {limits.strokes, limits.file_bytes, limits.budget_bytes,
+                                           HISTORY_HELD_BYTES_DEFAULT};
+        opened = history_open(&h, store, &settings, 0.5, &c, &finding);
     }
     ~piece()
     {
         if (opened == STATUS_OK)
             history_close(&h);
+        delta_finish(&changed);
         clay_finish(&c);
     }
     piece(const piece &) = delete;
     piece &operator=(const piece &) = delete;
 
-    /* A stroke that history refuses is taken back. */
-    status stroke(const piece_stroke &s)
+    /* A stretch of a stroke: written to the clay and put, not kept. */
+    status stretch(const piece_stroke &s, bool ends)
     {
         clay_change_begin(&c);
         status done = piece_write(&c, s);
         if (done == STATUS_OK)
-            done = history_commit(&h, &c);
-        if (done != STATUS_OK)
+            done = delta_cut(&changed, &c);
+        delta_sort(&changed);
+        if (done == STATUS_OK)
+            done = history_put(&h, &changed, h.dab + 1, ends, c.rows);
+        delta_give(&changed, &c);
+        if (done == STATUS_OK)
+            clay_change_end(&c);
+        else
             clay_change_revert(&c);
         dirt_clear(&c.dirty);
         return done;
     }
-    status undo()
+    status keep()
     {
-        const status s = history_undo(&h, &c);
-        dirt_clear(&c.dirty);
+        const status s = history_keep(&h);
+        if (s == STATUS_OK && h.wants_field && !h.in_stroke)
+            (void)!field();
         return s;
     }
-    status redo()
+    status stroke(const piece_stroke &s)
     {
-        const status s = history_redo(&h, &c);
-        dirt_clear(&c.dirty);
+        const status done = stretch(s, true);
+        return done == STATUS_OK ? keep() : done;
+    }
+    /* A checkpoint, all of it. */
+    status field()
+    {
+        const status s = history_field_begin(&h, &c);
+        while (s == STATUS_OK && history_work(&h))
+            continue;
         return s;
     }
+    status go(history_way way, uint64_t to = 0)
+    {
+        route r = {};
+        status s = history_fetch(&h, way, to, &r);
+        if (s == STATUS_OK)
+            s = route_apply(&r, &c);
+        if (s == STATUS_OK) {
+            clay_change_end(&c);
+            s = history_move(&h, &r);
+        }
+        route_finish(&r);
+        dirt_clear(&c.dirty);
+        return s == STATUS_OK ? keep() : s;
+    }
+    status undo() { return go(HISTORY_BACK); }
+    status redo() { return go(HISTORY_FORTH); }
     uint64_t digest() const { return clay_digest(&c); }
 };
 

@@ -1,179 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Goal: whatever happened to the files, opening ends in a state of the sculpture that once was, or in a clear refusal;
- *       it says what it found in one sentence; and nothing that held a stroke is lost.
- * Method: one store with undo below and redo above the cursor and a field beneath; every file cut at every byte, every
- *         bit flipped, every file missing; the moments between two files of a commit made by hand. */
+/* Goal: whatever happened to the files, opening ends in a state of the sculpture that once was, the latest that can be
+ *       proven, or in a clear refusal; it says what it found in one sentence; and nothing that held a stroke is gone.
+ * Method: stores with strokes behind and before the cursor and two fields beneath; each of the six steps of recovery.h
+ *         by hand. Damage of every kind is in recovery_damage_test.cpp, power cuts in tests/crash. */
 #include "history/recovery.h"
 
-#include "clay/digest.h"
 #include "history/byte_order.h"
-#include "history/cursor_file.h"
-#include "tests/unit/history/memory_store.h"
-#include "tests/unit/history/piece.h"
+#include "tests/unit/history/recovery_scene.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <functional>
-#include <set>
-
 namespace {
 
-/* Nine strokes in a ring of 8: field after 4, cursor at 7, strokes 2 to 9 kept. */
-struct scene {
-    memory_store m;
-    std::vector<uint64_t> digests; /* after stroke n */
-
-    scene()
-    {
-        piece p(m.port(), 8);
-        digests.push_back(p.digest());
-        for (int n = 1; n <= 9; n++) {
-            if (n == 5) {
-                EXPECT_EQ(history_checkpoint(&p.h, &p.c), STATUS_OK);
-            }
-            p.h.dab += 2;
-            EXPECT_EQ(p.stroke(piece_stroke_numbered(n, 2)), STATUS_OK);
-            digests.push_back(p.digest());
-        }
-        for (int n = 0; n < 2; n++)
-            EXPECT_EQ(p.undo(), STATUS_OK);
-        EXPECT_EQ(p.h.checkpoint, 4u);
-        EXPECT_EQ(p.h.oldest, 2u);
-    }
-
-    bool existed(uint64_t digest) const { return std::count(digests.begin(), digests.end(), digest) > 0; }
-};
-
-/* As files are after `change`. */
-memory_store files_after(const memory_store &m, const std::function<void(memory_store &)> &change)
-{
-    memory_store copy;
-    copy.files = m.files;
-    change(copy);
-    return copy;
-}
-
-/* Opening and going all the way back and forth meets only states that were; opening once more has nothing to say. */
-void expect_sound(const scene &s, memory_store &m, const std::string &what)
-{
-    {
-        piece p(m.port(), 8);
-        if (p.opened == STATUS_CORRUPT) {
-            ASSERT_NE(p.finding.text[0], '\0') << what;
-            ASSERT_EQ(clay_brick_count(&p.c), 0u) << what;
-        } else {
-            ASSERT_EQ(p.opened, STATUS_OK) << what;
-        }
-    }
-    piece p(m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK) << what;
-    ASSERT_TRUE(s.existed(p.digest())) << what << ": " << p.finding.text;
-    status step = STATUS_OK;
-    while ((step = p.undo()) == STATUS_OK)
-        ASSERT_TRUE(s.existed(p.digest())) << what;
-    ASSERT_TRUE(step == STATUS_HISTORY_ENDS || step == STATUS_CORRUPT) << what;
-    while ((step = p.redo()) == STATUS_OK)
-        ASSERT_TRUE(s.existed(p.digest())) << what;
-    ASSERT_TRUE(step == STATUS_HISTORY_ENDS || step == STATUS_CORRUPT) << what;
-    ASSERT_TRUE(clay_is_valid(&p.c));
-    piece q(m.port(), 8);
-    ASSERT_EQ(q.opened, STATUS_OK) << what;
-    ASSERT_STREQ(q.finding.text, "") << what;
-    ASSERT_EQ(q.digest(), p.digest()) << what;
-    ASSERT_EQ(m.misuse, "") << what;
-}
-
-std::vector<std::string> names(const memory_store &m)
-{
-    std::vector<std::string> all;
-    for (const auto &[name, bytes] : m.files)
-        all.push_back(name);
-    return all;
-}
-
-/* Every original file is there as it was, or replaced by a good one with its damaged bytes set aside. */
-void expect_kept(const std::map<std::string, std::vector<uint8_t>> &before, const memory_store &m,
-                 const std::string &what)
-{
-    for (const auto &[name, bytes] : before) {
-        if (name == CURSOR_FILE_NAME)
-            continue;
-        const bool there = m.files.count(name) && m.files.at(name) == bytes;
-        const std::string aside = name + ".set-aside";
-        ASSERT_TRUE(there || (m.files.count(aside) && m.files.at(aside) == bytes)) << what << ": " << name;
-    }
-}
-
-/* --- damage of every kind --- */
-
-TEST(recovery, every_file_cut_at_every_byte)
-{
-    const scene s;
-    for (const std::string &name : names(s.m))
-        for (size_t length = 0; length < s.m.files.at(name).size(); length++) {
-            memory_store m = files_after(s.m, [&](memory_store &c) { c.files[name].resize(length); });
-            const auto before = m.files;
-            expect_sound(s, m, name + " cut to " + std::to_string(length));
-            expect_kept(before, m, name);
-            if (HasFatalFailure())
-                return;
-        }
-}
-
-TEST(recovery, every_file_with_bits_flipped)
-{
-    const scene s;
-    /* Every bit of one file of each kind, one bit in every byte of the others. */
-    const std::set<std::string> thorough = {"cursor", "field", "undo-0006"};
-    for (const std::string &name : names(s.m))
-        for (size_t bit = 0; bit < s.m.files.at(name).size() * 8; bit += thorough.count(name) ? 1 : 9) {
-            memory_store m = files_after(
-                s.m, [&](memory_store &c) { c.files[name][bit / 8] ^= static_cast<uint8_t>(1u << bit % 8); });
-            const auto before = m.files;
-            expect_sound(s, m, name + " bit " + std::to_string(bit));
-            expect_kept(before, m, name);
-            if (HasFatalFailure())
-                return;
-        }
-}
-
-TEST(recovery, every_set_of_files_missing)
-{
-    const scene s;
-    const std::vector<std::string> all = names(s.m);
-    ASSERT_EQ(all.size(), 10u);
-    for (unsigned set = 0; set < 1u << all.size(); set++) {
-        memory_store m = files_after(s.m, [&](memory_store &c) {
-            for (size_t n = 0; n < all.size(); n++)
-                if (set >> n & 1)
-                    c.files.erase(all[n]);
-        });
-        expect_sound(s, m, "set " + std::to_string(set));
-        if (HasFatalFailure())
-            return;
-    }
-}
-
-TEST(recovery, files_in_each_others_places)
-{
-    const scene s;
-    const std::vector<std::string> all = names(s.m);
-    for (const std::string &one : all)
-        for (const std::string &other : all) {
-            memory_store m = files_after(s.m, [&](memory_store &c) { c.files[one] = s.m.files.at(other); });
-            expect_sound(s, m, other + " in the place of " + one);
-            if (HasFatalFailure())
-                return;
-        }
-}
+/* --- nothing is wrong --- */
 
 TEST(recovery, a_store_that_reads_in_small_pieces_is_as_good)
 {
-    const scene s;
+    const recovery_scene s;
     for (size_t at_most : {1, 3, 64, 100}) {
-        memory_store m = files_after(s.m, [&](memory_store &c) { c.read_at_most = at_most; });
-        piece p(m.port(), 8);
+        memory_store m = recovery_scene_after(s.m, [&](memory_store &c) { c.read_at_most = at_most; });
+        piece p(m.port(), recovery_scene_ring(100));
         ASSERT_EQ(p.opened, STATUS_OK);
         EXPECT_STREQ(p.finding.text, "");
         EXPECT_EQ(p.digest(), s.digests[7]);
@@ -181,319 +27,316 @@ TEST(recovery, a_store_that_reads_in_small_pieces_is_as_good)
     }
 }
 
-/* --- what is found, and what is said --- */
-
-void spoil(memory_store &m, const std::string &name) { m.files.at(name)[100] ^= 0x10; }
-
-TEST(recovery, sound_files_are_opened_without_a_word)
+TEST(recovery, sound_files_are_opened_without_a_word_and_left_alone)
 {
-    scene s;
-    const auto before = s.m.files;
-    piece p(s.m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK);
+    for (const std::set<int> &fields : {std::set<int>{}, std::set<int>{4}, std::set<int>{4, 6}, std::set<int>{9}}) {
+        recovery_scene s(fields);
+        const auto before = s.m.files;
+        piece p(s.m.port(), recovery_scene_ring(100));
+        ASSERT_EQ(p.opened, STATUS_OK);
+        EXPECT_STREQ(p.finding.text, "");
+        EXPECT_EQ(p.digest(), s.digests[7]);
+        EXPECT_EQ(p.h.tree.cursor, 7u);
+        EXPECT_EQ(p.h.tree.tip, 9u);
+        EXPECT_EQ(p.h.tree.count, 9u);
+        EXPECT_EQ(p.h.stroke, 9u);
+        EXPECT_EQ(p.h.sequence, 11u);
+        EXPECT_EQ(p.h.kept, 11u);
+        EXPECT_FALSE(p.h.wants_field);
+        EXPECT_EQ(s.m.files, before);
+    }
+}
+
+/* --- 1 and 2: which records count --- */
+
+TEST(recovery, what_an_earlier_use_left_behind_does_not_count)
+{
+    memory_store m;
+    std::vector<uint64_t> digests;
+    {
+        piece p(m.port(), recovery_scene_ring(2));
+        for (int n = 1; n <= 12; n++) { /* long ones first: their later parts lie on behind the short ones */
+            ASSERT_EQ(p.stretch(piece_stroke_numbered(n), false), STATUS_OK);
+            for (int more = 0; n <= 6 && more < 4; more++)
+                ASSERT_EQ(p.stretch(piece_stroke_numbered(20 + 10 * n + more), false), STATUS_OK);
+            ASSERT_EQ(p.stretch(piece_stroke_numbered(200 + n), true), STATUS_OK);
+            ASSERT_EQ(p.keep(), STATUS_OK);
+            digests.push_back(p.digest());
+        }
+        bool left = false;
+        record r;
+        for (uint32_t n = 0; n < p.h.ring.count; n++)
+            left = left || (p.h.ring.files[n].end > 0 &&
+                            ring_read_header(&p.h.ring, n, p.h.ring.files[n].end, &r) == STATUS_OK);
+        EXPECT_TRUE(left) << "or this proves nothing";
+    }
+    piece p(m.port(), recovery_scene_ring(2));
     EXPECT_STREQ(p.finding.text, "");
-    EXPECT_EQ(p.digest(), s.digests[7]);
-    EXPECT_EQ(p.h.oldest, 2u);
-    EXPECT_EQ(p.h.cursor, 7u);
-    EXPECT_EQ(p.h.newest, 9u);
-    EXPECT_EQ(p.h.dab, 18u);
-    EXPECT_EQ(s.m.files, before);
+    EXPECT_EQ(p.digest(), digests[11]);
+    ASSERT_EQ(p.undo(), STATUS_OK);
+    EXPECT_EQ(p.digest(), digests[10]);
 }
 
-TEST(recovery, damage_on_the_way_to_the_cursor_ends_there_and_keeps_the_rest)
-{
-    scene s;
-    spoil(s.m, "undo-0006");
-    const auto before = s.m.files;
+/* The next sync, alone, fails. */
+struct lost_sync {
+    memory_store m;
+    bool fails = false;
+    static inline lost_sync *one = nullptr;
+    static status sync(void *self, const char *name)
     {
-        piece p(s.m.port(), 8);
-        ASSERT_EQ(p.opened, STATUS_OK);
-        EXPECT_EQ(p.digest(), s.digests[5]);
-        EXPECT_EQ(p.h.newest, 5u);
-        EXPECT_EQ(p.h.oldest, 2u);
-        EXPECT_NE(std::string(p.finding.text).find("undo-0006 is damaged at byte "), std::string::npos);
-        EXPECT_NE(std::string(p.finding.text).find("the sculpture stands as after stroke 5"), std::string::npos);
+        if (!one->fails)
+            return memory_store_sync(self, name);
+        one->fails = false;
+        one->m.spoilt.insert(name);
+        return STATUS_IO;
     }
-    for (const char *name : {"undo-0006", "undo-0007", "undo-0000", "undo-0001"}) /* strokes 6, 7, 8, 9 */
-        EXPECT_EQ(s.m.files.at(std::string(name) + ".set-aside"), before.at(name));
-    EXPECT_EQ(s.m.files.count("undo-0007"), 0u);
-    piece again(s.m.port(), 8);
-    EXPECT_STREQ(again.finding.text, "");
-    EXPECT_EQ(again.digest(), s.digests[5]);
-    ASSERT_EQ(again.stroke(piece_stroke_numbered(50)), STATUS_OK);
-    EXPECT_EQ(s.m.files.at("undo-0006.set-aside"), before.at("undo-0006"));
-}
-
-TEST(recovery, damage_on_the_way_down_to_the_cursor_ends_there)
-{
-    scene s;
+    byte_store port()
     {
-        piece p(s.m.port(), 8);
-        ASSERT_EQ(p.redo(), STATUS_OK);
-        ASSERT_EQ(p.redo(), STATUS_OK);
-        ASSERT_EQ(history_checkpoint(&p.h, &p.c), STATUS_OK);
-        for (int n = 0; n < 4; n++)
-            ASSERT_EQ(p.undo(), STATUS_OK);
+        one = this;
+        byte_store s = m.port();
+        s.sync = sync;
+        return s;
     }
-    spoil(s.m, "undo-0007");
-    piece p(s.m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK);
-    EXPECT_EQ(p.digest(), s.digests[7]);
-    EXPECT_FALSE(history_can_undo(&p.h));
-    EXPECT_EQ(p.h.newest, 9u);
-    EXPECT_NE(std::string(p.finding.text).find("the sculpture stands as after stroke 7"), std::string::npos);
-    EXPECT_EQ(s.m.files.count("undo-0007.set-aside"), 1u);
+};
+
+TEST(recovery, record_that_lies_in_two_files_counts_in_the_later)
+{
+    /* A sync failed. Later the record before it is no more: both checkpoints are beyond it. */
+    for (const bool before_is_gone : {false, true}) {
+        lost_sync l;
+        uint64_t digest = 0, stroke = 0;
+        {
+            piece p(l.port(), recovery_scene_ring(2));
+            for (int n = 1; n <= 3; n++)
+                ASSERT_EQ(p.stroke(piece_stroke_numbered(n)), STATUS_OK);
+            for (int n = 0; n < 2; n++)
+                ASSERT_EQ(p.field(), STATUS_OK);
+            ASSERT_EQ(p.stretch(piece_stroke_numbered(4), false), STATUS_OK);
+            l.fails = true;
+            ASSERT_EQ(history_keep(&p.h), STATUS_OK) << "into another file";
+            ASSERT_FALSE(l.fails);
+            for (int n = 5; n <= (before_is_gone ? 9 : 5); n++) {
+                ASSERT_EQ(p.stretch(piece_stroke_numbered(n), true), STATUS_OK);
+                ASSERT_EQ(history_keep(&p.h), STATUS_OK);
+            }
+            digest = p.digest();
+            stroke = p.h.tree.cursor;
+        }
+        l.m.spoilt.clear();
+        piece p(l.m.port(), recovery_scene_ring(2));
+        EXPECT_STREQ(p.finding.text, "") << before_is_gone;
+        EXPECT_EQ(p.h.tree.cursor, stroke);
+        EXPECT_EQ(p.digest(), digest) << before_is_gone;
+    }
 }
 
-TEST(recovery, damage_on_the_undo_side_is_said_and_ends_it)
+/* --- 3: the base --- */
+
+TEST(recovery, damaged_field_is_set_aside_and_the_one_before_does)
 {
-    scene s;
-    s.m.files["undo-0003"][30] ^= 1; /* in the header: opening sees it */
-    piece p(s.m.port(), 8);
+    recovery_scene s;
+    s.m.files["field"][200] ^= 1;
+    const memory_store before = s.m;
+    piece p(s.m.port(), recovery_scene_ring(100));
     ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(p.digest(), s.digests[7]) << "the undo-files lead on from there";
+    EXPECT_EQ(std::string(p.finding.text).find("field is damaged at byte "), 0u) << p.finding.text;
+    EXPECT_NE(std::string(p.finding.text).find("and was set aside"), std::string::npos);
+    EXPECT_EQ(s.m.files.at("field.set-aside"), before.files.at("field"));
+    EXPECT_EQ(s.m.files.count("field"), 0u);
+    EXPECT_TRUE(p.h.wants_field);
+    EXPECT_EQ(p.h.tree.count, 9u);
+    ASSERT_EQ(p.field(), STATUS_OK);
+    piece q(s.m.port(), recovery_scene_ring(100));
+    EXPECT_STREQ(q.finding.text, "");
+    EXPECT_EQ(q.digest(), s.digests[7]);
+}
+
+TEST(recovery, all_records_since_the_field_before_are_kept_for_it)
+{
+    memory_store m;
+    piece p(m.port(), recovery_scene_ring(4));
+    for (int n = 1; n <= 16; n++) {
+        if (n == 3) { /* the stroke before is on no way any more, and yet its record is needed */
+            ASSERT_EQ(p.go(HISTORY_BACK), STATUS_OK);
+        }
+        ASSERT_EQ(p.stretch(piece_stroke_numbered(n), true), STATUS_OK);
+        ASSERT_EQ(history_keep(&p.h), STATUS_OK);
+        for (int fields = n == 1 ? 2 : n == 3; fields > 0; fields--)
+            ASSERT_EQ(p.field(), STATUS_OK);
+        for (const char *damaged : {"field", "field.before"}) {
+            if (!m.files.count(damaged))
+                continue;
+            memory_store copy = recovery_scene_after(m, [&](memory_store &c) { c.files[damaged].back() ^= 1; });
+            piece q(copy.port(), recovery_scene_ring(4));
+            ASSERT_EQ(q.digest(), p.digest()) << n << " without " << damaged << ": " << q.finding.text;
+        }
+    }
+}
+
+TEST(recovery, field_that_says_it_is_another_is_damaged)
+{
+    recovery_scene s;
+    std::vector<uint8_t> &f = s.m.files["field"];
+    byte_order_put_u64(&f[48], 12345); /* the digest, under a checksum that holds */
+    const preamble p2 = {"glaise\r\n", CHECKPOINT_VERSION, CHECKPOINT_HEADER_BYTES};
+    preamble_seal(&p2, f.data());
+    piece p(s.m.port(), recovery_scene_ring(100));
     EXPECT_EQ(p.digest(), s.digests[7]);
-    EXPECT_EQ(p.h.oldest, 4u);
-    EXPECT_EQ(p.h.newest, 9u);
     EXPECT_EQ(std::string(p.finding.text),
-              "undo-0003 is damaged at byte 80 (expected the checksum of the header): not every stroke can be undone "
-              "before stroke 7");
-    EXPECT_EQ(s.m.files.count("undo-0003.set-aside"), 1u);
-    piece again(s.m.port(), 8);
-    EXPECT_STREQ(again.finding.text, "") << "said once is enough";
+              "field is damaged at byte 48 (expected the digest of the clay that follows) and was set aside");
 }
 
-TEST(recovery, missing_redo_file_is_said_and_ends_it)
+TEST(recovery, without_any_field_the_strokes_make_the_sculpture_again)
 {
-    scene s;
-    s.m.files.erase("undo-0000");
-    piece p(s.m.port(), 8);
+    recovery_scene s;
+    s.m.files["field"][200] ^= 1;
+    s.m.files["field.before"][200] ^= 1;
+    piece p(s.m.port(), recovery_scene_ring(100));
     ASSERT_EQ(p.opened, STATUS_OK);
     EXPECT_EQ(p.digest(), s.digests[7]);
-    EXPECT_EQ(p.h.newest, 7u);
-    EXPECT_EQ(p.h.oldest, 2u);
-    EXPECT_EQ(std::string(p.finding.text), "undo-0000 is missing: not every stroke can be redone after stroke 7");
-    EXPECT_EQ(s.m.files.count("undo-0001.set-aside"), 1u) << "stroke 9 leads nowhere without 8";
-    piece again(s.m.port(), 8);
-    EXPECT_STREQ(again.finding.text, "");
+    EXPECT_EQ(std::string(p.finding.text).find("field is damaged at byte "), 0u) << p.finding.text;
+    EXPECT_EQ(s.m.files.count("field.set-aside"), 1u);
+    EXPECT_EQ(s.m.files.count("field.before.set-aside"), 1u);
+    EXPECT_TRUE(p.h.wants_field);
 }
 
-TEST(recovery, file_in_a_place_that_is_not_its_own_is_set_aside)
+TEST(recovery, a_field_alone_is_enough)
 {
-    scene s;
-    s.m.files["undo-0003"] = s.m.files["undo-0005"];
-    piece p(s.m.port(), 8);
+    recovery_scene s;
+    memory_store copy;
+    copy.files["field"] = s.m.files.at("field");
+    piece_clay c;
+    history h;
+    history_finding finding;
+    const history_settings settings = HISTORY_SETTINGS_DEFAULT;
+    ASSERT_EQ(history_open(&h, copy.port(), &settings, 3.0, &c.c, &finding), STATUS_OK);
+    EXPECT_STREQ(finding.text, "");
+    EXPECT_EQ(clay_digest(&c.c), s.digests[6]);
+    EXPECT_EQ(h.step_mm, 0.5) << "that of the field, not the caller's";
+    EXPECT_EQ(h.tree.cursor, 6u);
+    EXPECT_EQ(h.stroke, 6u);
+    EXPECT_FALSE(history_can_undo(&h) || history_can_redo(&h));
+    history_close(&h);
+}
+
+TEST(recovery, neither_field_nor_first_strokes_is_empty_clay_and_nothing_is_thrown_away)
+{
+    recovery_scene s({}, 2); /* fields and forgetting as they come */
+    for (const char *name : {"field", "field.before"})
+        s.m.files.at(name)[200] ^= 1;
+    const memory_store before = s.m;
+    piece p(s.m.port(), recovery_scene_ring(2));
     ASSERT_EQ(p.opened, STATUS_OK);
-    EXPECT_EQ(p.h.oldest, 4u);
-    EXPECT_NE(std::string(p.finding.text).find("a stroke that belongs in this place"), std::string::npos);
-    EXPECT_EQ(s.m.files.at("undo-0003.set-aside"), s.m.files.at("undo-0005"));
-}
-
-TEST(recovery, damaged_cursor_falls_back_to_the_last_stroke_that_links)
-{
-    for (bool missing : {false, true}) {
-        scene s;
-        if (missing)
-            s.m.files.erase("cursor");
-        else
-            s.m.files["cursor"][20] ^= 1;
-        piece p(s.m.port(), 3); /* the ring is found in the undo-files */
-        ASSERT_EQ(p.opened, STATUS_OK);
-        EXPECT_EQ(p.digest(), s.digests[9]);
-        EXPECT_EQ(p.h.ring, 8u);
-        EXPECT_EQ(p.h.oldest, 2u);
-        EXPECT_EQ(p.h.newest, 9u);
-        EXPECT_EQ(p.h.dab, 18u);
-        EXPECT_EQ(p.h.step_mm, 0.5);
-        EXPECT_EQ(std::string(p.finding.text),
-                  std::string("cursor is ") + (missing ? "missing" : "damaged") +
-                      ": the sculpture stands as after stroke 9, the last one kept");
-        EXPECT_EQ(s.m.files.count("cursor.set-aside"), missing ? 0u : 1u);
-        EXPECT_EQ(s.m.files.count("cursor"), 1u);
-    }
-}
-
-TEST(recovery, damaged_field_is_set_aside_and_the_second_opening_starts_anew)
-{
-    scene s;
-    s.m.files["field"][150] ^= 1;
-    const auto before = s.m.files;
-    {
-        piece p(s.m.port(), 8);
-        EXPECT_EQ(p.opened, STATUS_CORRUPT);
-        EXPECT_EQ(std::string(p.finding.text).find("field is damaged at byte "), 0u) << p.finding.text;
-        EXPECT_EQ(s.m.files.count("field"), 0u);
-        EXPECT_EQ(s.m.files.at("field.set-aside"), before.at("field"));
-    }
-    piece p(s.m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK);
-    EXPECT_EQ(clay_brick_count(&p.c), 0u) << "stroke 1 is no longer in the ring";
+    EXPECT_EQ(clay_brick_count(&p.c), 0u);
     EXPECT_FALSE(history_can_undo(&p.h) || history_can_redo(&p.h));
     EXPECT_NE(p.finding.text[0], '\0');
-    EXPECT_EQ(p.h.step_mm, 0.5);
-    for (int n = 0; n < 8; n++) {
-        const std::string name = "undo-000" + std::to_string(n);
-        EXPECT_EQ(s.m.files.at(name + ".set-aside"), before.at(name));
-        EXPECT_EQ(s.m.files.count(name), 0u);
-    }
+    recovery_scene_expect_kept(before, s.m, "");
+    for (int n = 20; n < 40; n++)
+        ASSERT_EQ(p.stroke(piece_stroke_numbered(n)), STATUS_OK);
+    for (const auto &[name, bytes] : s.m.files)
+        if (name.find(".set-aside") != std::string::npos) {
+            EXPECT_EQ(bytes, before.files.at(name.substr(0, name.find(".set-aside"))));
+        }
 }
 
-TEST(recovery, lost_field_is_made_again_from_the_first_stroke_on)
+TEST(recovery, field_of_version_1_is_a_base)
 {
     memory_store m;
     uint64_t digest = 0;
     {
-        piece p(m.port(), 8);
-        for (int n = 1; n <= 6; n++)
-            ASSERT_EQ(p.stroke(piece_stroke_numbered(n)), STATUS_OK);
-        ASSERT_EQ(history_checkpoint(&p.h, &p.c), STATUS_OK);
-        ASSERT_EQ(p.undo(), STATUS_OK);
+        piece p(m.port(), recovery_scene_ring(100));
+        ASSERT_EQ(p.stroke(piece_stroke_numbered(1)), STATUS_OK);
+        ASSERT_EQ(p.field(), STATUS_OK);
         digest = p.digest();
     }
-    m.files.erase("field");
-    piece p(m.port(), 8);
+    std::vector<uint8_t> f = m.files.at("field");
+    f.erase(f.begin() + 56, f.begin() + 88);
+    byte_order_put_u64(&f[24], 31);
+    const preamble p1 = {"glaise\r\n", 1, 64};
+    preamble_seal(&p1, f.data());
+    m.files.clear();
+    m.files["field"] = f;
+    piece p(m.port(), recovery_scene_ring(100));
     ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_STREQ(p.finding.text, "");
     EXPECT_EQ(p.digest(), digest);
-    EXPECT_EQ(p.h.newest, 6u);
-    EXPECT_EQ(p.h.oldest, 1u);
-    EXPECT_EQ(p.h.checkpoint, 5u) << "the field is written again at once";
-    EXPECT_EQ(std::string(p.finding.text),
-              "field is missing: the undo-files made the sculpture again, up to stroke 5");
+    EXPECT_EQ(p.h.tree.cursor, 31u);
+    ASSERT_EQ(p.stroke(piece_stroke_numbered(2)), STATUS_OK);
+    EXPECT_EQ(p.h.tree.cursor, 32u);
+    piece q(m.port(), recovery_scene_ring(100));
+    EXPECT_EQ(q.digest(), p.digest());
 }
 
-/* --- newer and unreadable --- */
+/* --- 4: the tail --- */
 
-void make_newer(std::vector<uint8_t> &b, size_t header_bytes)
+TEST(recovery, torn_last_record_is_as_if_it_had_not_been_put)
 {
-    byte_order_put_u32(&b[8], 2);
-    byte_order_put_u64(&b[header_bytes - 8], digest_bytes(b.data(), header_bytes - 8, 0));
-}
-
-TEST(recovery, newer_files_are_refused_untouched)
-{
-    for (const auto &[name, header_bytes] :
-         std::map<std::string, size_t>{{"cursor", 72}, {"field", 64}, {"undo-0003", 88}, {"undo-0001", 88}}) {
-        scene s;
-        make_newer(s.m.files.at(name), header_bytes);
-        spoil(s.m, "undo-0006");
-        const auto before = s.m.files;
-        piece p(s.m.port(), 8);
-        EXPECT_EQ(p.opened, STATUS_NEWER) << name;
-        EXPECT_EQ(std::string(p.finding.text), name + " was written by a newer version of this program");
-        EXPECT_EQ(s.m.files, before);
-        EXPECT_EQ(clay_brick_count(&p.c), 0u);
+    for (const size_t at : {size_t{RECOVERY_SCENE_IN_HEADER}, size_t{RECOVERY_SCENE_IN_BRICKS}}) {
+        memory_store m;
+        uint64_t before = 0;
+        {
+            piece p(m.port(), recovery_scene_ring(100));
+            for (int n = 1; n <= 3; n++) {
+                before = p.digest();
+                ASSERT_EQ(p.stroke(piece_stroke_numbered(n)), STATUS_OK);
+            }
+            m.files.at(ring_name_of(p.h.ring.current).text)[at] ^= 4;
+        }
+        piece p(m.port(), recovery_scene_ring(100));
+        EXPECT_STREQ(p.finding.text, "") << "nobody can tell it from one that was never synced";
+        EXPECT_EQ(p.digest(), before);
+        EXPECT_EQ(p.h.tree.cursor, 2u);
+        ASSERT_EQ(p.stroke(piece_stroke_numbered(9)), STATUS_OK);
+        const uint64_t digest = p.digest();
+        piece q(m.port(), recovery_scene_ring(100));
+        EXPECT_STREQ(q.finding.text, "");
+        EXPECT_EQ(q.digest(), digest);
+        EXPECT_EQ(q.h.tree.cursor, 3u);
     }
 }
 
-TEST(recovery, unreadable_on_the_way_is_refused_and_elsewhere_ends_history)
-{
-    for (const char *name : {"cursor", "field", "undo-0005", "undo-0007"}) {
-        scene s;
-        s.m.unreadable = name;
-        const auto before = s.m.files;
-        piece p(s.m.port(), 8);
-        EXPECT_EQ(p.opened, STATUS_IO) << name;
-        EXPECT_EQ(s.m.files, before);
-    }
-    scene s;
-    s.m.unreadable = "undo-0003";
-    piece p(s.m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK);
-    EXPECT_EQ(p.digest(), s.digests[7]);
-    EXPECT_EQ(p.h.oldest, 4u);
-    EXPECT_EQ(std::string(p.finding.text).find("undo-0003 cannot be read: "), 0u) << p.finding.text;
-    EXPECT_EQ(s.m.files.count("undo-0003"), 1u) << "it may be readable tomorrow";
-}
-
-TEST(recovery, clay_too_small_for_the_field_is_refused_untouched)
-{
-    scene s;
-    const auto before = s.m.files;
-    piece p(s.m.port(), 8, 1);
-    EXPECT_EQ(p.opened, STATUS_POOL_FULL);
-    EXPECT_EQ(s.m.files, before);
-    EXPECT_EQ(clay_brick_count(&p.c), 0u);
-}
-
-/* --- the power goes between two files --- */
-
-TEST(recovery, stroke_whose_cursor_was_not_written_is_absent_without_a_word)
-{
-    scene s;
-    {
-        piece p(s.m.port(), 8);
-        ASSERT_EQ(p.redo(), STATUS_OK);
-        ASSERT_EQ(p.redo(), STATUS_OK);
-    }
-    const auto cursor = s.m.files.at("cursor");
-    {
-        piece p(s.m.port(), 8);
-        ASSERT_EQ(p.stroke(piece_stroke_numbered(10)), STATUS_OK); /* in the place of stroke 2 */
-    }
-    s.m.files["cursor"] = cursor;
-    piece p(s.m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK);
-    EXPECT_STREQ(p.finding.text, "");
-    EXPECT_EQ(p.digest(), s.digests[9]);
-    EXPECT_EQ(p.h.oldest, 3u);
-    EXPECT_EQ(p.h.newest, 9u);
-}
-
-TEST(recovery, stroke_in_the_place_of_undone_ones_whose_cursor_was_not_written_can_be_redone)
-{
-    scene s;
-    const auto cursor = s.m.files.at("cursor");
-    uint64_t other;
-    {
-        piece p(s.m.port(), 8);
-        ASSERT_EQ(p.stroke(piece_stroke_numbered(33)), STATUS_OK);
-        EXPECT_EQ(p.h.cursor, 8u);
-        other = p.digest();
-    }
-    s.m.files["cursor"] = cursor;
-    const auto before = s.m.files;
-    piece p(s.m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK);
-    EXPECT_STREQ(p.finding.text, "");
-    EXPECT_EQ(p.digest(), s.digests[7]);
-    EXPECT_EQ(p.h.newest, 8u) << "stroke 9 is of the other branch";
-    ASSERT_EQ(p.redo(), STATUS_OK);
-    EXPECT_EQ(p.digest(), other);
-    EXPECT_EQ(p.redo(), STATUS_HISTORY_ENDS);
-    for (const auto &[name, bytes] : before)
-        EXPECT_EQ(s.m.files.count(name + ".set-aside"), 0u);
-}
-
-TEST(recovery, new_store_whose_cursor_was_not_written_opens_without_a_word)
+TEST(recovery, records_up_to_the_last_whole_one_count)
 {
     memory_store m;
+    uint64_t before = 0;
+    piece_stroke full;
+    for (int n = 0; n < BRICK_CORNERS * 3; n++)
+        full.push_back({{n / 64, n / 8 % 8, n % 8}, 1, 5});
     {
-        piece p(m.port(), 8);
+        piece p(m.port(), recovery_scene_ring(100));
+        ASSERT_EQ(p.stroke(piece_stroke_numbered(1)), STATUS_OK);
+        before = p.digest();
+        ASSERT_EQ(p.stroke(full), STATUS_OK); /* three records of two blocks each */
+        ASSERT_EQ(p.h.sequence, 4u);
+        m.files.at(ring_name_of(p.h.ring.current).text)[2 * 8192 + RECOVERY_SCENE_IN_BRICKS] ^= 4; /* the third */
     }
-    m.files.erase("cursor");
-    piece p(m.port(), 8);
-    ASSERT_EQ(p.opened, STATUS_OK);
+    piece p(m.port(), recovery_scene_ring(100));
     EXPECT_STREQ(p.finding.text, "");
+    EXPECT_EQ(p.digest(), before);
+    EXPECT_EQ(p.h.tree.cursor, 1u);
+    EXPECT_EQ(p.h.sequence, 1u);
 }
 
-TEST(recovery, field_alone_is_enough)
+/* --- 5: the way --- */
+
+TEST(recovery, stroke_that_cannot_be_gone_over_ends_at_the_latest_that_can_be_reached)
 {
-    scene s;
-    const auto field = s.m.files.at("field");
-    s.m.files.clear();
-    s.m.files["field"] = field;
-    memory_store copy;
-    copy.files = s.m.files;
-    piece_clay c;
-    history h;
-    history_finding finding;
-    ASSERT_EQ(history_open(&h, copy.port(), 5, 3.0, &c.c, &finding), STATUS_OK);
-    EXPECT_STREQ(finding.text, "");
-    EXPECT_EQ(clay_digest(&c.c), s.digests[4]);
-    EXPECT_EQ(h.step_mm, 0.5) << "that of the field, not the caller's";
-    EXPECT_EQ(h.dab, 8u);
-    EXPECT_EQ(h.cursor, 4u);
-    EXPECT_FALSE(history_can_undo(&h) || history_can_redo(&h));
-    history_close(&h);
+    recovery_scene s({9}); /* the way from the field to the cursor goes back over 9 and 8 */
+    s.turn(8, RECOVERY_SCENE_IN_BRICKS);
+    const memory_store before = s.m;
+    piece p(s.m.port(), recovery_scene_ring(100));
+    ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(p.digest(), s.digests[8]);
+    EXPECT_EQ(p.h.tree.cursor, 8u);
+    EXPECT_EQ(std::string(p.finding.text),
+              "undo-files are damaged: the sculpture stands at the latest state that could be reached");
+    EXPECT_FALSE(history_can_undo(&p.h));
+    EXPECT_TRUE(p.h.wants_field);
+    recovery_scene_expect_kept(before, s.m, "");
+    ASSERT_EQ(p.keep(), STATUS_OK);
+    piece q(s.m.port(), recovery_scene_ring(100));
+    EXPECT_EQ(q.digest(), s.digests[8]) << "and there it stays";
 }
 
 TEST(recovery, walk_over_more_bricks_than_dirt_has_room_for)
@@ -502,32 +345,202 @@ TEST(recovery, walk_over_more_bricks_than_dirt_has_room_for)
     memory_store m;
     uint64_t digest = 0;
     {
-        piece p(m.port(), 100, 8);
-        for (int n = 1; n <= 40; n++) {
+        piece p(m.port(), recovery_scene_ring(100), 8);
+        for (int n = 1; n <= 16; n++) {
             const piece_stroke stroke = {{{8 * n, 0, 0}, 1, 1}, {{8 * n - 8, 0, 0}, 0, 0}};
-            ASSERT_EQ(p.stroke(stroke), STATUS_OK);
+            ASSERT_EQ(p.stretch(stroke, true), STATUS_OK);
+            ASSERT_EQ(history_keep(&p.h), STATUS_OK);
         }
         digest = p.digest();
     }
-    piece p(m.port(), 100, 8);
+    piece p(m.port(), recovery_scene_ring(100), 8);
     ASSERT_EQ(p.opened, STATUS_OK);
     EXPECT_EQ(p.digest(), digest);
     EXPECT_EQ(dirt_count(&p.c.dirty), 1u);
 }
 
-TEST(recovery, leftovers_of_writing_are_not_looked_at)
+TEST(recovery, damage_beneath_the_base_only_ends_undo)
 {
-    scene s;
-    for (const char *name : {"undo.new", "cursor.new", "field.new"})
+    recovery_scene s;
+    s.turn(3, RECOVERY_SCENE_IN_BRICKS);
+    piece p(s.m.port(), recovery_scene_ring(100));
+    ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(p.digest(), s.digests[7]);
+    for (size_t n = 6; n >= 3; n--) {
+        ASSERT_EQ(p.undo(), STATUS_OK);
+        EXPECT_EQ(p.digest(), s.digests[n]);
+    }
+    EXPECT_EQ(p.undo(), STATUS_CORRUPT);
+    EXPECT_EQ(p.undo(), STATUS_HISTORY_ENDS);
+    EXPECT_EQ(p.digest(), s.digests[3]);
+}
+
+/* --- 6: what the medium lost --- */
+
+TEST(recovery, medium_that_lost_what_it_had_kept_is_told_of)
+{
+    for (const size_t at : {size_t{RECOVERY_SCENE_IN_HEADER}, size_t{RECOVERY_SCENE_IN_BRICKS}}) {
+        recovery_scene s({4});
+        s.turn(6, at);
+        const memory_store before = s.m;
+        {
+            piece p(s.m.port(), recovery_scene_ring(100));
+            ASSERT_EQ(p.opened, STATUS_OK);
+            EXPECT_EQ(p.digest(), s.digests[5]);
+            EXPECT_EQ(std::string(p.finding.text),
+                      "the medium lost what it had said was kept: the sculpture stands as after stroke 5, what "
+                      "was found beyond is set aside");
+            for (const uint64_t n : {7, 8, 9})
+                EXPECT_EQ(s.m.files.at(s.files[n] + ".set-aside"), before.files.at(s.files[n])) << n;
+            recovery_scene_expect_kept(before, s.m, "");
+            ASSERT_EQ(p.stroke(piece_stroke_numbered(50)), STATUS_OK);
+        }
+        piece again(s.m.port(), recovery_scene_ring(100));
+        EXPECT_STREQ(again.finding.text, "") << "said once is enough";
+        ASSERT_EQ(again.undo(), STATUS_OK);
+        EXPECT_EQ(again.digest(), s.digests[5]);
+    }
+}
+
+/* --- earlier, newer, unreadable --- */
+
+TEST(recovery, undo_files_of_the_earlier_form_are_set_aside)
+{
+    recovery_scene s;
+    std::vector<uint8_t> old(300);
+    std::memcpy(old.data(), "glundo\r\n", 8);
+    s.m.files["undo-0077"] = old;
+    piece p(s.m.port(), recovery_scene_ring(100));
+    EXPECT_EQ(p.digest(), s.digests[7]);
+    EXPECT_EQ(std::string(p.finding.text),
+              "undo-0077 is of an earlier form and was set aside: its stroke cannot be undone any more");
+    EXPECT_EQ(s.m.files.at("undo-0077.set-aside"), old);
+    EXPECT_EQ(s.m.files.count("undo-0077"), 0u);
+}
+
+TEST(recovery, newer_files_are_refused_untouched)
+{
+    const recovery_scene sound;
+    const std::string undo = sound.files.at(3), last = sound.files.at(9);
+    const preamble field = {"glaise\r\n", CHECKPOINT_VERSION + 1, CHECKPOINT_HEADER_BYTES};
+    const preamble rec = {"glring\r\n", RECORD_VERSION + 1, RECORD_HEADER_BYTES};
+    for (const auto &[name, as] : std::map<std::string, preamble>{
+             {"field", field}, {"field.before", field}, {undo, rec}, {last, rec}}) {
+        recovery_scene s;
+        preamble_seal(&as, s.m.files.at(name).data());
+        s.turn(6, RECOVERY_SCENE_IN_BRICKS); /* even so */
+        const auto before = s.m.files;
+        piece p(s.m.port(), recovery_scene_ring(100));
+        EXPECT_EQ(p.opened, STATUS_NEWER) << name;
+        EXPECT_EQ(std::string(p.finding.text), name + " was written by a newer version of this program");
+        EXPECT_EQ(s.m.files, before);
+        EXPECT_EQ(clay_brick_count(&p.c), 0u);
+        EXPECT_TRUE(clay_is_valid(&p.c));
+    }
+}
+
+TEST(recovery, unreadable_undo_file_beneath_the_base_is_told_and_left)
+{
+    recovery_scene s;
+    s.m.unreadable = s.files[2];
+    const auto before = s.m.files;
+    {
+        piece p(s.m.port(), recovery_scene_ring(100));
+        ASSERT_EQ(p.opened, STATUS_OK);
+        EXPECT_EQ(p.digest(), s.digests[7]);
+        EXPECT_EQ(std::string(p.finding.text), s.files[2] + " cannot be read: not every stroke can be undone");
+        EXPECT_EQ(s.m.files, before) << "it may be readable tomorrow";
+    }
+    s.m.unreadable = "";
+    piece p(s.m.port(), recovery_scene_ring(100));
+    EXPECT_STREQ(p.finding.text, "");
+    EXPECT_EQ(p.h.tree.count, 9u);
+}
+
+TEST(recovery, unreadable_field_is_told_and_the_one_before_does)
+{
+    recovery_scene s;
+    s.m.unreadable = "field";
+    const auto before = s.m.files;
+    piece p(s.m.port(), recovery_scene_ring(100));
+    ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(std::string(p.finding.text), "field cannot be read");
+    EXPECT_EQ(p.digest(), s.digests[7]);
+    EXPECT_EQ(s.m.files, before);
+    EXPECT_TRUE(p.h.wants_field);
+}
+
+TEST(recovery, store_that_cannot_be_listed_is_refused)
+{
+    recovery_scene s;
+    const auto before = s.m.files;
+    s.m.fail_at = s.m.calls + 1;
+    piece p(s.m.port(), recovery_scene_ring(100));
+    EXPECT_EQ(p.opened, STATUS_IO);
+    EXPECT_EQ(clay_brick_count(&p.c), 0u);
+    EXPECT_EQ(s.m.files, before);
+}
+
+TEST(recovery, a_call_that_fails_costs_no_file)
+{
+    const recovery_scene s;
+    for (uint64_t nth = 1;; nth++) {
+        memory_store m = recovery_scene_after(s.m, [](memory_store &) {});
+        m.fail_at = nth;
+        piece p(m.port(), recovery_scene_ring(100));
+        if (m.calls < nth)
+            break;
+        ASSERT_TRUE(p.opened == STATUS_IO || (p.opened == STATUS_OK && s.existed(p.digest()))) << nth;
+        ASSERT_NO_FATAL_FAILURE(recovery_scene_expect_kept(s.m, m, std::to_string(nth)));
+    }
+}
+
+TEST(recovery, clay_too_small_is_refused_untouched)
+{
+    for (const std::set<int> &fields : {std::set<int>{}, std::set<int>{4, 6}}) { /* on the way; in the field */
+        recovery_scene s(fields);
+        const auto before = s.m.files;
+        piece p(s.m.port(), recovery_scene_ring(100), 1);
+        EXPECT_EQ(p.opened, STATUS_POOL_FULL);
+        EXPECT_EQ(clay_brick_count(&p.c), 0u);
+        EXPECT_TRUE(clay_is_valid(&p.c));
+        EXPECT_EQ(s.m.files, before);
+    }
+}
+
+TEST(recovery, last_file_that_cannot_be_synced_gets_no_more)
+{
+    recovery_scene s;
+    s.m.fail_at = 0;
+    lost_sync l;
+    l.m.files = s.m.files;
+    l.fails = true;
+    piece p(l.port(), recovery_scene_ring(100));
+    ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(p.digest(), s.digests[7]);
+    EXPECT_NE(std::string(p.finding.text).find(" cannot be written any more"), std::string::npos) << p.finding.text;
+    EXPECT_EQ(p.h.ring.current, RING_NONE);
+    EXPECT_TRUE(p.h.wants_field);
+    ASSERT_EQ(p.redo(), STATUS_OK);
+    EXPECT_EQ(l.m.misuse, "") << "the move went elsewhere";
+    piece q(l.m.port(), recovery_scene_ring(100));
+    EXPECT_EQ(q.digest(), s.digests[8]);
+}
+
+TEST(recovery, leftovers_and_strangers_are_not_looked_at)
+{
+    recovery_scene s;
+    for (const char *name : {"field.new", "undo.new", "notes.txt", "undo-0003.set-aside"})
         s.m.files[name] = {1, 2, 3};
-    piece p(s.m.port(), 8);
+    piece p(s.m.port(), recovery_scene_ring(100));
     ASSERT_EQ(p.opened, STATUS_OK);
     EXPECT_STREQ(p.finding.text, "");
     ASSERT_EQ(p.stroke(piece_stroke_numbered(50)), STATUS_OK);
-    ASSERT_EQ(history_checkpoint(&p.h, &p.c), STATUS_OK);
-    piece q(s.m.port(), 8);
+    ASSERT_EQ(p.field(), STATUS_OK);
+    piece q(s.m.port(), recovery_scene_ring(100));
     EXPECT_EQ(q.digest(), p.digest());
-    EXPECT_EQ(s.m.files.count("undo.new") + s.m.files.count("cursor.new") + s.m.files.count("field.new"), 0u);
+    EXPECT_EQ(s.m.files.count("field.new"), 0u);
+    EXPECT_EQ(s.m.files.count("notes.txt"), 1u);
 }
 
 } // namespace

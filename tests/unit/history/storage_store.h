@@ -10,12 +10,17 @@
 
 #include "history/byte_store.h"
 
+#include <cerrno>
+
 extern "C" {
 #include "platform/storage/storage.c"
 }
 
 inline storage *storage_store_of(void *self) { return static_cast<storage *>(self); }
-inline status storage_store_status(int result) { return result == 0 ? STATUS_OK : STATUS_IO; }
+inline status storage_store_status(int result)
+{
+    return result == 0 ? STATUS_OK : result == -ENOSPC ? STATUS_NO_SPACE : STATUS_IO;
+}
 
 inline byte_store storage_store_port(storage *s)
 {
@@ -41,6 +46,9 @@ inline byte_store storage_store_port(storage *s)
     };
     b.remove = [](void *self, const char *name) {
         return storage_store_status(storage_remove(storage_store_of(self), name));
+    };
+    b.list = [](void *self, void (*take)(void *into, const char *name), void *into) {
+        return storage_store_status(storage_list(storage_store_of(self), take, into));
     };
     return b;
 }

@@ -22,6 +22,8 @@ sculpture_dab dab_at(double x, double y, double z, double radius, double rate = 
     return {{{x, y, z}, {{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, rate, seconds};
 }
 
+constexpr history_settings small_ring = {20, 1 << 16, 1 << 24, 1 << 24};
+
 class sculpture_door : public testing::Test {
 protected:
     void SetUp() override { ASSERT_EQ(ellipsoid_init(&ball, ELLIPSOID_WYVILL, 0.1), STATUS_OK); }
@@ -35,7 +37,7 @@ protected:
     void open(bool with_store, uint32_t bricks = 4000, double step_mm = 1)
     {
         const byte_store store = disk.port();
-        ASSERT_EQ(sculpture_open(s.get(), with_store ? &store : nullptr, bricks, 20, step_mm, &finding), STATUS_OK)
+        ASSERT_EQ(sculpture_open(s.get(), with_store ? &store : nullptr, bricks, &small_ring, step_mm, &finding), STATUS_OK)
             << finding.text;
         is_open = true;
     }
@@ -84,11 +86,14 @@ TEST_F(sculpture_door, opens_only_with_settings_that_make_sense)
 {
     const double none = std::nan(""), infinite = std::numeric_limits<double>::infinity();
     for (double bad : {0.0, -1.0, none, infinite, SCULPTURE_STEP_MM_MIN / 2, SCULPTURE_STEP_MM_MAX * 2})
-        EXPECT_EQ(sculpture_open(s.get(), nullptr, 10, 10, bad, &finding), STATUS_BAD_PARAMETER);
-    EXPECT_EQ(sculpture_open(s.get(), nullptr, 0, 10, 1, &finding), STATUS_BAD_PARAMETER);
-    EXPECT_EQ(sculpture_open(s.get(), nullptr, CAPACITY_BRICKS + 1, 10, 1, &finding), STATUS_BAD_PARAMETER);
-    EXPECT_EQ(sculpture_open(s.get(), nullptr, 10, 0, 1, &finding), STATUS_BAD_PARAMETER);
-    EXPECT_EQ(sculpture_open(s.get(), nullptr, 10, HISTORY_RING_MAX + 1, 1, &finding), STATUS_BAD_PARAMETER);
+        EXPECT_EQ(sculpture_open(s.get(), nullptr, 10, nullptr, bad, &finding), STATUS_BAD_PARAMETER);
+    EXPECT_EQ(sculpture_open(s.get(), nullptr, 0, nullptr, 1, &finding), STATUS_BAD_PARAMETER);
+    EXPECT_EQ(sculpture_open(s.get(), nullptr, CAPACITY_BRICKS + 1, nullptr, 1, &finding), STATUS_BAD_PARAMETER);
+    const byte_store store = disk.port();
+    for (const uint32_t strokes : {0u, HISTORY_STROKES_MAX + 1u}) {
+        const history_settings wrong = {strokes, 1 << 16, 1 << 24, 1 << 24};
+        EXPECT_EQ(sculpture_open(s.get(), &store, 10, &wrong, 1, &finding), STATUS_BAD_PARAMETER);
+    }
 }
 
 TEST_F(sculpture_door, takes_millimetres_and_seconds)
@@ -273,38 +278,113 @@ TEST_F(sculpture_door, a_clay_without_room_refuses_the_dab)
     expect_whole();
 }
 
-TEST_F(sculpture_door, a_disk_that_fails_costs_the_stroke_and_no_more)
+TEST_F(sculpture_door, a_disk_that_fails_costs_nothing_that_was_made)
 {
     open(true);
     stroke(ACTION_TOOTHPASTE, dab_at(0, 0, 0, 5));
-    const uint64_t digest = sculpture_digest(s.get()), mesh = surface_digest(&s->surface);
-    for (uint64_t after = 1; after <= 4; after++) {
-        sculpture_stroke_begin(s.get());
-        ASSERT_EQ(apply(ACTION_TOOTHPASTE, dab_at(4, 0, 0, 5)), STATUS_OK);
-        disk.fail_at = disk.calls + after;
-        disk.fail_on = true;
-        EXPECT_EQ(sculpture_stroke_end(s.get()), STATUS_IO) << after;
-        disk.fail_at = 0;
-        disk.fail_on = false;
-        EXPECT_FALSE(s->in_stroke);
-        EXPECT_EQ(sculpture_digest(s.get()), digest);
-        EXPECT_EQ(surface_digest(&s->surface), mesh);
-        expect_whole();
-    }
+    ASSERT_EQ(sculpture_facts(s.get()).kept, sculpture_facts(s.get()).put);
+    disk.fail_at = disk.calls + 1;
+    disk.fail_on = true;
     stroke(ACTION_TOOTHPASTE, dab_at(4, 0, 0, 5));
-    const uint64_t then = sculpture_digest(s.get());
-    /* At whichever call the disk fails, the undo did not happen; behind the last one it did. */
-    uint64_t refused = 0;
-    for (status outcome = STATUS_IO; outcome != STATUS_OK; refused += outcome != STATUS_OK) {
-        ASSERT_LT(refused, 50u);
-        disk.fail_at = disk.calls + refused + 1;
-        outcome = sculpture_undo(s.get());
-        disk.fail_at = 0;
-        ASSERT_TRUE(outcome == STATUS_OK || outcome == STATUS_IO);
-        EXPECT_EQ(sculpture_digest(s.get()), outcome == STATUS_OK ? digest : then);
+    const uint64_t digest = sculpture_digest(s.get());
+    keeper_facts facts = sculpture_facts(s.get());
+    EXPECT_LT(facts.kept, facts.put);
+    EXPECT_EQ(facts.medium, HISTORY_MEDIUM_FAILS);
+    EXPECT_STRNE(facts.trouble.text, "");
+    EXPECT_EQ(sculpture_room(s.get()), STATUS_OK) << "sculpting goes on";
+    disk.fail_at = 0;
+    disk.fail_on = false;
+    stroke(ACTION_PAINTER, dab_at(4, 0, 0, 5));
+    facts = sculpture_facts(s.get());
+    EXPECT_EQ(facts.kept, facts.put);
+    EXPECT_EQ(facts.medium, HISTORY_MEDIUM_GOOD);
+    ASSERT_EQ(sculpture_undo(s.get()), STATUS_OK);
+    EXPECT_EQ(sculpture_digest(s.get()), digest);
+    close();
+    open(true);
+    EXPECT_EQ(sculpture_digest(s.get()), digest);
+    expect_whole();
+}
+
+TEST_F(sculpture_door, an_undo_that_cannot_be_read_leaves_everything)
+{
+    open(true);
+    stroke(ACTION_TOOTHPASTE, dab_at(0, 0, 0, 5));
+    const uint64_t first = sculpture_digest(s.get());
+    stroke(ACTION_TOOTHPASTE, dab_at(4, 0, 0, 5));
+    const uint64_t then = sculpture_digest(s.get()), mesh = surface_digest(&s->surface);
+    disk.fail_at = disk.calls + 1;
+    EXPECT_EQ(sculpture_undo(s.get()), STATUS_IO);
+    disk.fail_at = 0;
+    EXPECT_EQ(sculpture_digest(s.get()), then);
+    EXPECT_EQ(surface_digest(&s->surface), mesh);
+    expect_whole();
+    ASSERT_EQ(sculpture_undo(s.get()), STATUS_OK);
+    EXPECT_EQ(sculpture_digest(s.get()), first);
+}
+
+TEST_F(sculpture_door, a_stroke_in_many_parts_is_one_undo_step)
+{
+    open(true);
+    sculpture_stroke_begin(s.get());
+    for (int n = 0; n < 5; n++) {
+        ASSERT_EQ(apply(ACTION_TOOTHPASTE, dab_at(3 * n, 0, 0, 5)), STATUS_OK);
+        sculpture_part(s.get());
+        EXPECT_EQ(sculpture_facts(s.get()).put, static_cast<uint64_t>(n + 1));
+        EXPECT_EQ(sculpture_facts(s.get()).kept_digest, clay_digest(&s->clay)) << "to the last dab";
+    }
+    sculpture_part(s.get());
+    EXPECT_EQ(sculpture_facts(s.get()).put, 5u) << "nothing new is no record";
+    ASSERT_EQ(sculpture_stroke_end(s.get()), STATUS_OK);
+    const uint64_t digest = sculpture_digest(s.get());
+    expect_whole();
+    ASSERT_EQ(sculpture_undo(s.get()), STATUS_OK);
+    EXPECT_EQ(s->clay.corners, 0u);
+    ASSERT_EQ(sculpture_redo(s.get()), STATUS_OK);
+    EXPECT_EQ(sculpture_digest(s.get()), digest);
+    expect_whole();
+}
+
+TEST_F(sculpture_door, a_refused_surface_costs_the_stroke_what_it_did_since_its_last_part)
+{
+    open(true, 8);
+    sculpture_stroke_begin(s.get());
+    ASSERT_EQ(apply(ACTION_TOOTHPASTE, dab_at(4, 4, 4, 3, 3)), STATUS_OK);
+    sculpture_part(s.get());
+    const uint64_t digest = sculpture_digest(s.get()), mesh = surface_digest(&s->surface);
+    ASSERT_EQ(apply(ACTION_PAINTER, dab_at(4, 4, 4, 3)), STATUS_OK);
+    s->surface.patches.limit = 2;
+    EXPECT_EQ(apply(ACTION_TOOTHPASTE, dab_at(7.5, 7.5, 7.5, 6, 3)), STATUS_POOL_FULL);
+    s->surface.patches.limit = 16;
+    EXPECT_FALSE(s->in_stroke);
+    EXPECT_EQ(sculpture_digest(s.get()), digest);
+    EXPECT_EQ(surface_digest(&s->surface), mesh);
+    expect_whole();
+    close();
+    open(true, 8);
+    EXPECT_EQ(sculpture_digest(s.get()), digest);
+    ASSERT_EQ(sculpture_undo(s.get()), STATUS_OK);
+    EXPECT_EQ(s->clay.corners, 0u);
+}
+
+TEST_F(sculpture_door, a_fork_is_gone_to_and_back)
+{
+    open(true);
+    stroke(ACTION_TOOTHPASTE, dab_at(0, 0, 0, 5));
+    stroke(ACTION_TOOTHPASTE, dab_at(4, 0, 0, 5));
+    const uint64_t older = sculpture_digest(s.get());
+    ASSERT_EQ(sculpture_undo(s.get()), STATUS_OK);
+    stroke(ACTION_TOOTHPASTE, dab_at(0, 4, 0, 5));
+    const uint64_t newer = sculpture_digest(s.get());
+    EXPECT_EQ(sculpture_facts(s.get()).branches, 2u);
+    for (const uint64_t there : {older, newer, older}) {
+        ASSERT_EQ(sculpture_step(s.get(), HISTORY_FORK, 0), STATUS_OK);
+        EXPECT_EQ(sculpture_digest(s.get()), there);
         expect_whole();
     }
-    EXPECT_GE(refused, 3u) << "read, write and sync at the least";
+    ASSERT_EQ(sculpture_step(s.get(), HISTORY_TO, 0), STATUS_OK);
+    EXPECT_EQ(s->clay.corners, 0u);
+    EXPECT_EQ(sculpture_step(s.get(), HISTORY_TO, 77), STATUS_HISTORY_ENDS);
 }
 
 TEST_F(sculpture_door, field_and_surface_can_be_asked_for_apart)

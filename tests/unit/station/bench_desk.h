@@ -17,9 +17,10 @@ struct bench_desk {
     explicit bench_desk(uint32_t bricks = 20000)
     {
         history_finding finding;
-        status s = sculpture_open(piece.get(), nullptr, bricks, 1, 1.0, &finding);
+        status s = sculpture_open(piece.get(), nullptr, bricks, nullptr, 1.0, &finding);
         EXPECT_EQ(s, STATUS_OK);
         station_ears ears;
+        ears.records = true;
         ears.dab = [this](const station_dab &d) { dabs.push_back(d); };
         desk = station_open(piece.get(), ears);
     }

@@ -64,7 +64,7 @@ protected:
     {
         history_finding finding;
         piece.reset(new sculpture());
-        ASSERT_EQ(sculpture_open(piece.get(), nullptr, 4000, 10, 0.5, &finding), STATUS_OK);
+        ASSERT_EQ(sculpture_open(piece.get(), nullptr, 4000, nullptr, 0.5, &finding), STATUS_OK);
         ASSERT_EQ(ellipsoid_init(&ball, ELLIPSOID_WYVILL, 1), STATUS_OK);
         for (int n = 0; n < 20; n++)
             dab(n, ACTION_TOOTHPASTE);

@@ -12,6 +12,8 @@
 
 namespace {
 
+constexpr history_settings few = {10, 1 << 16, 1 << 24, 1 << 24}, none = {0, 1 << 16, 1 << 24, 1 << 24};
+
 class opened_elsewhere : public testing::Test {
 protected:
     void SetUp() override
@@ -19,7 +21,7 @@ protected:
         history_finding finding;
         ASSERT_EQ(ellipsoid_init(&ball, ELLIPSOID_WYVILL, 1), STATUS_OK);
         port = disk.port();
-        ASSERT_EQ(sculpture_open(piece.get(), &port, CAPACITY_BRICKS, 10, 0.5, &finding), STATUS_OK);
+        ASSERT_EQ(sculpture_open(piece.get(), &port, CAPACITY_BRICKS, &few, 0.5, &finding), STATUS_OK);
         for (int n = 0; n < 3; n++)
             stroke(5.0 * n);
         digest = sculpture_digest(piece.get());
@@ -43,7 +45,7 @@ protected:
 TEST_F(opened_elsewhere, is_the_piece_with_its_history)
 {
     history_finding finding;
-    opening *o = opening_begin(piece.get(), port, 10, 1.0);
+    opening *o = opening_begin(piece.get(), port, few, 1.0);
     ASSERT_EQ(opening_end(o, &finding), STATUS_OK);
     EXPECT_EQ(piece->step_mm, 0.5);
     EXPECT_EQ(sculpture_digest(piece.get()), digest);
@@ -58,7 +60,7 @@ TEST_F(opened_elsewhere, is_the_piece_with_its_history)
 TEST_F(opened_elsewhere, is_read_whole_by_the_end)
 {
     history_finding finding;
-    opening *o = opening_begin(piece.get(), port, 10, 1.0);
+    opening *o = opening_begin(piece.get(), port, few, 1.0);
     while (!opening_is_done(o))
         EXPECT_LE(opening_part(o), 1);
     EXPECT_EQ(opening_part(o), 1);
@@ -69,13 +71,10 @@ TEST_F(opened_elsewhere, is_read_whole_by_the_end)
 TEST_F(opened_elsewhere, what_fails_is_answered)
 {
     history_finding finding;
-    opening *o = opening_begin(piece.get(), port, 0, 1.0);
+    opening *o = opening_begin(piece.get(), port, none, 1.0);
     EXPECT_EQ(opening_end(o, &finding), STATUS_BAD_PARAMETER);
-    port.read = [](void *, const char *, uint64_t, void *, size_t, size_t *got_out) {
-        *got_out = 0;
-        return STATUS_IO;
-    };
-    o = opening_begin(piece.get(), port, 10, 1.0);
+    port.list = [](void *, void (*)(void *, const char *), void *) { return STATUS_IO; };
+    o = opening_begin(piece.get(), port, few, 1.0);
     EXPECT_EQ(opening_end(o, &finding), STATUS_IO);
 }
 

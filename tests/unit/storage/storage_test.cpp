@@ -81,10 +81,10 @@ TEST_F(storage_on_disk, new_folder_is_synced_in_its_parent)
     storage other;
     ASSERT_EQ(storage_open(&other, (path + "/a").c_str()), 0);
     storage_close(&other);
-    EXPECT_EQ(failing_system.folder_syncs, 1);
+    EXPECT_EQ(failing_system.folder_syncs, 2) << "its parent, and itself";
     ASSERT_EQ(storage_open(&other, (path + "/a").c_str()), 0);
     storage_close(&other);
-    EXPECT_EQ(failing_system.folder_syncs, 1);
+    EXPECT_EQ(failing_system.folder_syncs, 3) << "names that an earlier program left may not be on the medium yet";
 }
 
 /* --- names --- */
@@ -243,7 +243,7 @@ TEST_F(storage_on_disk, removed_is_gone_and_its_name_free)
     EXPECT_EQ(on_disk("a"), "new");
 }
 
-TEST_F(storage_on_disk, file_whose_sync_failed_is_good_for_nothing)
+TEST_F(storage_on_disk, file_whose_sync_failed_is_written_no_more)
 {
     ASSERT_EQ(put("a", "1"), 0);
     failing_system.sync_error = EIO;
@@ -253,10 +253,11 @@ TEST_F(storage_on_disk, file_whose_sync_failed_is_good_for_nothing)
     size_t count;
     EXPECT_EQ(storage_sync(&s, "a"), -EIO) << "a second sync would lie";
     EXPECT_EQ(put("a", "2"), -EIO);
-    EXPECT_EQ(storage_read(&s, "a", 0, &b, 1, &count), -EIO);
-    EXPECT_EQ(storage_rename(&s, "a", "b"), -EIO);
+    EXPECT_EQ(storage_read(&s, "a", 0, &b, 1, &count), 0);
+    EXPECT_EQ(count, 1u) << "what was on the medium before may be read";
+    EXPECT_EQ(storage_rename(&s, "a", "b"), 0) << "and kept aside";
     EXPECT_EQ(failing_system.file_syncs, 0);
-    ASSERT_EQ(storage_remove(&s, "a"), 0);
+    EXPECT_EQ(on_disk("b"), "1");
     ASSERT_EQ(put("a", "3"), 0);
     EXPECT_EQ(storage_sync(&s, "a"), 0);
     EXPECT_EQ(on_disk("a"), "3");

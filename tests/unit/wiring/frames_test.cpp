@@ -25,7 +25,7 @@ template <typename frames> outcome play(const std::vector<command> &commands, fr
     byte_store port = scratch_store_port(&scratch);
     auto piece = std::make_unique<sculpture>();
     history_finding finding;
-    EXPECT_EQ(sculpture_open(piece.get(), &port, 50000, 200, 1.0, &finding), STATUS_OK);
+    EXPECT_EQ(sculpture_open(piece.get(), &port, 50000, nullptr, 1.0, &finding), STATUS_OK);
     station *desk = station_open(piece.get(), {});
     int64_t end_us = commands.back().time_us + 100000;
     size_t next = 0;

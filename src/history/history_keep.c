@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What history.h does with the medium once it is open: which undo-file is written, and what is done beside. */
+#include "history/history.h"
+
+#include "history/sentence.h"
+#include "history/whole_file.h"
+
+#include <stdlib.h>
+
+#define FIELD_TEMPORARY HISTORY_FIELD_NAME ".new"
+
+enum { SYNC_SLICES = 8 }; /* of a checkpoint, between two syncs: the last one should not take long */
+
+static void tell(history *h, const char *what, status why)
+{
+    sentence text = sentence_begin(h->trouble.text, sizeof h->trouble.text);
+    sentence_add(&text, what);
+    sentence_add(&text, ": ");
+    sentence_add(&text, status_text(why));
+}
+
+/* --- which undo-file may be written anew --- */
+
+/* The newest record that is in both checkpoints. Until there are two, empty clay stands for the older. */
+static uint64_t beneath(const history *h)
+{
+    if (!h->field.there || !h->before.there)
+        return 0;
+    return h->field.sequence < h->before.sequence ? h->field.sequence : h->before.sequence;
+}
+
+/* Does the way from a checkpoint, also from one that is being written, to this state go over the stroke? */
+static bool is_on_a_way(const history *h, uint64_t state, uint64_t stroke)
+{
+    return tree_passes(&h->tree, h->field.cursor, state, stroke) ||
+           tree_passes(&h->tree, h->before.cursor, state, stroke) ||
+           (h->writer && tree_passes(&h->tree, h->writing.cursor, state, stroke));
+}
+
+/* H3, for a stroke. Until all is kept, a cut may leave the clay at any state since the last one that was. */
+static bool may_go(const history *h, uint64_t stroke)
+{
+    for (uint32_t n = 0; n < h->ring.count; n++)
+        if (h->ring.files[n].stroke == stroke && h->ring.files[n].last > beneath(h))
+            return false;
+    for (const history_held *held = h->held_first; held; held = held->next)
+        if (held->r.stroke == stroke || is_on_a_way(h, held->r.cursor, stroke))
+            return false;
+    return beneath(h) > 0 && !is_on_a_way(h, h->kept_cursor, stroke) && !is_on_a_way(h, h->tree.cursor, stroke);
+}
+
+/* Forgets the oldest stroke, if it may go and is not the only one. */
+static bool forget_oldest(history *h)
+{
+    if (h->tree.count <= 1)
+        return false;
+    if (!may_go(h, h->tree.strokes[0].stroke)) {
+        h->wants_field = true;
+        return false;
+    }
+    tree_forget(&h->tree, h->tree.strokes[0].stroke);
+    return true;
+}
+
+/* Frees the files that nobody needs; spoilt ones are set aside. */
+static void reclaim(history *h)
+{
+    for (uint32_t n = 0; n < h->ring.count; n++) {
+        ring_file *f = &h->ring.files[n];
+        if (f->bytes == 0 || f->free || n == h->ring.current || f->last > beneath(h))
+            continue;
+        if (f->stroke != 0 && tree_find(&h->tree, f->stroke))
+            continue;
+        if (!f->spoilt)
+            f->free = true;
+        else if (whole_file_set_aside(&h->store, ring_name_of(n).text) == STATUS_OK)
+            ring_forget(&h->ring, n);
+    }
+}
+
+/* Files that other settings made, or that were cut short, are good for as long as a record fits. */
+static uint32_t free_file(history *h)
+{
+    reclaim(h);
+    return ring_free_file(&h->ring, h->settings.file_bytes / 2);
+}
+
+/* An undo-file to begin. When the medium is full, undo reaches less far (H7). */
+static status file_take(history *h, uint32_t *file_out)
+{
+    status s = STATUS_NO_SPACE;
+    *file_out = h->medium == HISTORY_MEDIUM_FAILS ? RING_NONE : free_file(h);
+    if (*file_out != RING_NONE)
+        return STATUS_OK;
+    const bool within_budget = h->ring.bytes + h->settings.file_bytes <= h->settings.budget_bytes;
+    if (within_budget || h->medium == HISTORY_MEDIUM_FAILS)
+        s = ring_make(&h->ring, h->settings.file_bytes, file_out);
+    while (s == STATUS_NO_SPACE && *file_out == RING_NONE && forget_oldest(h))
+        if ((*file_out = free_file(h)) != RING_NONE)
+            s = STATUS_OK;
+    if (s == STATUS_NO_SPACE && !within_budget)
+        s = ring_make(&h->ring, h->settings.file_bytes, file_out);
+    return s;
+}
+
+/* --- keeping --- */
+
+static bool goes_into(const history *h, uint32_t file, const record *r)
+{
+    return file != RING_NONE && (r->stroke == 0 || r->stroke == h->ring.files[file].stroke) &&
+           ring_has_room(&h->ring, file, r->bytes);
+}
+
+static void held_drop(history *h, const history_held *end)
+{
+    while (h->held_first != end) {
+        history_held *held = h->held_first;
+        h->held_first = held->next;
+        if (held->r.marks & RECORD_WHOLE) {
+            h->kept_cursor = held->r.cursor;
+            h->kept_digest = held->r.digest_after;
+        }
+        h->held_bytes -= RECORD_HEADER_BYTES + held->r.bytes;
+        free(held);
+    }
+    if (!h->held_first)
+        h->held_last = NULL;
+}
+
+/* As many of the records as one file takes: written, synced, and only then kept. */
+static status keep_batch(history *h)
+{
+    uint32_t file = h->ring.current;
+    status s = STATUS_OK;
+    if (!goes_into(h, file, &h->held_first->r)) {
+        s = file_take(h, &file);
+        if (s != STATUS_OK)
+            return s;
+        ring_begin(&h->ring, file, h->held_first->r.stroke);
+    }
+    const ring_file was = h->ring.files[file];
+    history_held *held = h->held_first;
+    uint64_t seal = h->seal, last = h->kept;
+    while (s == STATUS_OK && held && goes_into(h, file, &held->r)) {
+        held->r.before = seal;
+        held->r.kept = h->kept;
+        s = ring_write(&h->ring, file, &held->r, held->bytes);
+        seal = held->r.seal;
+        last = held->r.sequence;
+        held = held->next;
+    }
+    if (s == STATUS_OK)
+        s = h->store.sync(h->store.self, ring_name_of(file).text);
+    if (s != STATUS_OK) { /* H5 */
+        h->ring.files[file] = was;
+        h->ring.files[file].spoilt = true;
+        h->ring.current = RING_NONE;
+        return s;
+    }
+    h->seal = seal;
+    h->kept = last;
+    held_drop(h, held);
+    return STATUS_OK;
+}
+
+status history_keep(history *h)
+{
+    status s = STATUS_OK;
+    bool tried = h->medium == HISTORY_MEDIUM_FAILS;
+    while (h->held_first) {
+        s = keep_batch(h);
+        if (s != STATUS_OK && (tried || s != STATUS_IO))
+            break;
+        tried = tried || s != STATUS_OK;
+    }
+    if (s == STATUS_OK || !h->held_first) {
+        h->medium = HISTORY_MEDIUM_GOOD;
+    } else {
+        h->medium = s == STATUS_NO_SPACE ? HISTORY_MEDIUM_FULL : HISTORY_MEDIUM_FAILS;
+        tell(h, "what was made last is only in memory", s);
+    }
+    while (h->tree.count > h->settings.strokes && forget_oldest(h))
+        continue;
+    return s;
+}
+
+/* --- checkpoints --- */
+
+static status field_put(void *self, const void *bytes, size_t n)
+{
+    history *h = (history *)self;
+    status s = h->store.write(h->store.self, FIELD_TEMPORARY, h->written, bytes, n);
+    h->written += n;
+    return s;
+}
+
+status history_field_begin(history *h, const clay *c)
+{
+    assert(!h->writer && !h->in_stroke);
+    status s = history_keep(h); /* the seal of its last record must be known */
+    if (s == STATUS_OK)
+        s = h->store.remove(h->store.self, FIELD_TEMPORARY);
+    if (s != STATUS_OK)
+        return s;
+    h->writer = (checkpoint_writer *)malloc(sizeof *h->writer);
+    if (!h->writer)
+        return STATUS_NO_MEMORY;
+    h->writing = (checkpoint_facts){.step_mm = h->step_mm,
+                                    .sequence = h->sequence,
+                                    .cursor = h->tree.cursor,
+                                    .tip = h->tree.tip,
+                                    .seal = h->seal,
+                                    .dab = h->dab,
+                                    .digest = h->digest};
+    h->written = 0;
+    h->wants_field = false;
+    h->strokes_since = 0;
+    h->put_since = 0;
+    checkpoint_writer_begin(h->writer, c, &h->writing, field_put, h);
+    return STATUS_OK;
+}
+
+/* The new one takes its place, and the one that had it is the one before. At no time is there none. h->field says which
+   one lies under its name, if one does; `there`, that it is known to. */
+static status field_place(history *h)
+{
+    const byte_store *store = &h->store;
+    uint64_t bytes;
+    bool exists = false;
+    status s = store->sync(store->self, FIELD_TEMPORARY);
+    if (s == STATUS_OK)
+        s = store->size(store->self, HISTORY_FIELD_NAME, &bytes, &exists);
+    const bool unread = exists && !h->field.there && h->field.sequence == 0; /* opening could not read it: H6 */
+    if (s == STATUS_OK && unread)
+        s = whole_file_set_aside(store, HISTORY_FIELD_NAME);
+    if (s == STATUS_OK && exists && !unread) {
+        h->before.there = false;
+        s = store->rename(store->self, HISTORY_FIELD_NAME, HISTORY_FIELD_BEFORE_NAME);
+        if (s == STATUS_OK)
+            h->before = (history_base){true, h->field.sequence, h->field.cursor};
+    }
+    if (s != STATUS_OK)
+        return s;
+    h->field = (history_base){false, h->writing.sequence, h->writing.cursor};
+    s = store->rename(store->self, FIELD_TEMPORARY, HISTORY_FIELD_NAME);
+    h->field.there = s == STATUS_OK;
+    return s;
+}
+
+static void field_work(history *h)
+{
+    bool done = false;
+    status s = checkpoint_writer_step(h->writer, HISTORY_SLICE_BYTES, &done);
+    if (s == STATUS_OK && !done && h->written / HISTORY_SLICE_BYTES % SYNC_SLICES == 0)
+        s = h->store.sync(h->store.self, FIELD_TEMPORARY);
+    if (s == STATUS_OK && done)
+        s = field_place(h);
+    if (s == STATUS_OK && !done)
+        return;
+    free(h->writer);
+    h->writer = NULL;
+    if (s != STATUS_OK)
+        tell(h, "the sculpture as a whole could not be written, its strokes are", s);
+}
+
+/* --- what can wait --- */
+
+/* A file made before it is needed, or one too many removed. */
+static bool files_work(history *h)
+{
+    const uint64_t bytes = h->settings.file_bytes;
+    const uint32_t file = free_file(h);
+    if (h->medium != HISTORY_MEDIUM_GOOD)
+        return false;
+    if (file == RING_NONE && h->tree.count < h->settings.strokes && h->ring.bytes + bytes <= h->settings.budget_bytes) {
+        uint32_t made;
+        status s = ring_make(&h->ring, bytes, &made);
+        (void)s; /* it will be tried again when it is needed, and then told */
+        return false;
+    }
+    if (file == RING_NONE || h->ring.bytes <= h->settings.budget_bytes)
+        return false;
+    const bool removed = ring_remove(&h->ring, file) == STATUS_OK;
+    if (!removed) /* or it is no more, and a record in it would make a file that is too short */
+        h->ring.files[file].spoilt = true;
+    return removed;
+}
+
+bool history_work(history *h)
+{
+    if (h->writer)
+        field_work(h);
+    else
+        return files_work(h);
+    return true;
+}

@@ -31,7 +31,7 @@ held_piece opened()
 {
     history_finding finding;
     auto s = std::make_unique<sculpture>();
-    demand(sculpture_open(s.get(), nullptr, CAPACITY_BRICKS, 1, 1.0, &finding), "sculpture_open");
+    demand(sculpture_open(s.get(), nullptr, CAPACITY_BRICKS, nullptr, 1.0, &finding), "sculpture_open");
     return held_piece(s.release());
 }
 

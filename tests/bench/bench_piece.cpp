@@ -20,17 +20,18 @@ status size_of_nothing(void *, const char *, uint64_t *bytes_out, bool *exists_o
 }
 status truncate_nothing(void *, const char *, uint64_t) { return STATUS_OK; }
 status name_done(void *, const char *) { return STATUS_OK; }
+status list_nothing(void *, void (*)(void *, const char *), void *) { return STATUS_OK; }
 status rename_done(void *, const char *, const char *) { return STATUS_OK; }
 
 const byte_store nowhere = {nullptr,  read_nothing, write_away, size_of_nothing, truncate_nothing,
-                            name_done, rename_done,  name_done};
+                            name_done, rename_done,  name_done,  list_nothing};
 
 } // namespace
 
 bench_piece::bench_piece(uint32_t bricks) : whole(std::make_unique<sculpture>())
 {
     history_finding finding;
-    bench_rig_demand(sculpture_open(whole.get(), &nowhere, bricks, HISTORY_RING_DEFAULT, 1.0, &finding) == STATUS_OK,
+    bench_rig_demand(sculpture_open(whole.get(), &nowhere, bricks, nullptr, 1.0, &finding) == STATUS_OK,
                      std::string("sculpture_open: ") + finding.text);
     bench_rig_demand(ellipsoid_init(&ball, ELLIPSOID_WYVILL, 1) == STATUS_OK, "ellipsoid_init");
 }

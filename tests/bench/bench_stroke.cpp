@@ -61,7 +61,13 @@ struct memory_files {
         of(self).files[name].clear();
         return STATUS_OK;
     }
-    byte_store store() { return {this, read, write, size, truncate, sync, rename, remove}; }
+    static status list(void *self, void (*take)(void *into, const char *name), void *into)
+    {
+        for (const auto &[name, bytes] : of(self).files)
+            take(into, name.c_str());
+        return STATUS_OK;
+    }
+    byte_store store() { return {this, read, write, size, truncate, sync, rename, remove, list}; }
 };
 
 void demand(status s, const char *what) { bench_rig_demand(s == STATUS_OK, std::string(what) + ": " + status_text(s)); }
@@ -73,7 +79,7 @@ public:
         history_finding finding;
         const byte_store store = disk.store();
         demand(ellipsoid_init(&ball, ELLIPSOID_WYVILL, 1), "ellipsoid");
-        demand(sculpture_open(whole.get(), &store, CAPACITY_BRICKS, HISTORY_RING_DEFAULT, 1.0, &finding), "open");
+        demand(sculpture_open(whole.get(), &store, CAPACITY_BRICKS, nullptr, 1.0, &finding), "open");
         demand(clay_copy(&whole->clay, &from), "clay_copy");
         demand(surface_rebuild(&whole->surface, &whole->clay, nullptr), "surface_rebuild");
     }

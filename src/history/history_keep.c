@@ -49,16 +49,17 @@ static bool may_go(const history *h, uint64_t stroke)
     return beneath(h) > 0 && !is_on_a_way(h, h->kept_cursor, stroke) && !is_on_a_way(h, h->tree.cursor, stroke);
 }
 
-/* Forgets the oldest stroke, if it may go and is not the only one. */
-static bool forget_oldest(history *h)
+/* Forgets the oldest stroke that nothing else is lost with, if it may go and is not the only one. */
+static bool forget_one(history *h)
 {
-    if (h->tree.count <= 1)
+    const uint64_t spare = h->tree.count > 1 ? tree_spare(&h->tree) : 0;
+    if (spare == 0)
         return false;
-    if (!may_go(h, h->tree.strokes[0].stroke)) {
+    if (!may_go(h, spare)) {
         h->wants_field = true;
         return false;
     }
-    tree_forget(&h->tree, h->tree.strokes[0].stroke);
+    tree_forget(&h->tree, spare);
     return true;
 }
 
@@ -95,7 +96,7 @@ static status file_take(history *h, uint32_t *file_out)
     const bool within_budget = h->ring.bytes + h->settings.file_bytes <= h->settings.budget_bytes;
     if (within_budget || h->medium == HISTORY_MEDIUM_FAILS)
         s = ring_make(&h->ring, h->settings.file_bytes, file_out);
-    while (s == STATUS_NO_SPACE && *file_out == RING_NONE && forget_oldest(h))
+    while (s == STATUS_NO_SPACE && *file_out == RING_NONE && forget_one(h))
         if ((*file_out = free_file(h)) != RING_NONE)
             s = STATUS_OK;
     if (s == STATUS_NO_SPACE && !within_budget)
@@ -179,7 +180,7 @@ status history_keep(history *h)
         h->medium = s == STATUS_NO_SPACE ? HISTORY_MEDIUM_FULL : HISTORY_MEDIUM_FAILS;
         tell(h, "what was made last is only in memory", s);
     }
-    while (h->tree.count > h->settings.strokes && forget_oldest(h))
+    while (h->tree.count > h->settings.strokes && forget_one(h))
         continue;
     return s;
 }

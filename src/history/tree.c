@@ -177,6 +177,25 @@ static uint64_t top_of(const tree *t, uint64_t state)
     return s ? s->top : state;
 }
 
+uint64_t tree_spare(const tree *t)
+{
+    uint32_t first = 0, firsts = 0;
+    for (uint32_t n = 0; n < t->count; n++) {
+        if (tree_find(t, t->strokes[n].parent))
+            continue;
+        first = n;
+        firsts++;
+    }
+    const bool beyond = firsts == 1 && t->strokes[first].parent != t->cursor;
+    for (uint32_t n = 0; n < t->count; n++) { /* oldest first */
+        const tree_stroke *s = &t->strokes[n];
+        const bool end = s->children == 0 && s->stroke != t->tip && s->stroke != t->cursor;
+        if (end || (beyond && n == first))
+            return s->stroke;
+    }
+    return 0;
+}
+
 static void count_children(tree *t)
 {
     for (uint32_t n = 0; n < t->count; n++)

@@ -71,6 +71,9 @@ uint32_t tree_branches(const tree *t);
 /* The newest stroke that redo alone leads to from a state, over newest strokes; the state itself when there is none. */
 uint64_t tree_tip_of(const tree *t, uint64_t state);
 
+/* The oldest stroke that nothing else is lost with: the first one, where it alone leads on from the beginning and the
+   cursor lies beyond it; or the last of a branch that was left. 0: there is none. */
+uint64_t tree_spare(const tree *t);
 /* Forgets a stroke, and all that the cursor does not reach without it; the tip becomes one that it reaches. */
 void tree_forget(tree *t, uint64_t stroke);
 /* Forgets all that the cursor does not reach. */

@@ -16,7 +16,7 @@ void live(const char *what, uint64_t lives, const crash_life_kind &kind)
 {
     const crash_life_count before = crash_life_counted;
     const uint64_t first = crash_life_seed();
-    for (uint64_t n = 0; n < lives * crash_life_factor(); n++) {
+    for (uint64_t n = 0; n < (lives * crash_life_factor() + SIM_DISK_THIN - 1) / SIM_DISK_THIN; n++) {
         ASSERT_NO_FATAL_FAILURE(crash_life_run(first + n, kind));
         if (testing::Test::HasFailure())
             return;

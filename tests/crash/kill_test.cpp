@@ -6,6 +6,7 @@
  *         checkpoints come often. One run to the end says how every stroke looks after each of its dabs. Then the same
  *         tape again and again, killed (SIGKILL) at a seeded instant between its start and its end; `glaise check` and
  *         a further run say what is there. GLAISE_KILLS says how often, GLAISE_KILL_SEED where chance begins. */
+#include "tests/crash/sim_disk.h"
 #include "tests/property/seeded.h"
 
 #include <gtest/gtest.h>
@@ -156,7 +157,7 @@ acknowledged last_kept(const std::string &out)
 
 TEST_F(killed, at_any_instant_it_comes_back_exactly)
 {
-    const uint64_t kills = number_from("GLAISE_KILLS", 200), seed = number_from("GLAISE_KILL_SEED", 1);
+    const uint64_t kills = number_from("GLAISE_KILLS", 200 / SIM_DISK_THIN), seed = number_from("GLAISE_KILL_SEED", 1);
     seeded chance{seed};
     put(base / "life.tape", tape_text(chance, 40));
     std::vector<std::string> whole = replay("life.tape");

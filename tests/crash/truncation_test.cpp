@@ -5,6 +5,7 @@
  *         and every so many of what follows is flipped. What comes up is compared with all states that there were;
  *         where a checkpoint was damaged, with the last one: the other checkpoint and the undo-files lead there.
  */
+#include "tests/crash/sim_disk.h"
 #include "tests/unit/history/memory_store.h"
 #include "tests/unit/history/piece.h"
 
@@ -74,7 +75,7 @@ TEST(truncation, every_file_at_every_byte)
     const small_store store;
     uint64_t cuts = 0;
     for (const auto &[name, bytes] : store.files)
-        for (size_t n = 0; n < bytes.size(); n++, cuts++) {
+        for (size_t n = 0; n < bytes.size(); n += SIM_DISK_THIN, cuts++) {
             SCOPED_TRACE(name + " cut at byte " + std::to_string(n));
             ASSERT_NO_FATAL_FAILURE(
                 expect_a_state(store, name, {bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(n)}));
@@ -88,7 +89,8 @@ TEST(truncation, a_byte_flipped)
     const small_store store;
     uint64_t flips = 0;
     for (const auto &[name, bytes] : store.files)
-        for (size_t n = 0; n < bytes.size(); n += n % RECORD_BLOCK_BYTES < HEADER_BYTES ? 1 : STRIDE) {
+        for (size_t n = 0, step = 0; n < bytes.size(); n += step * SIM_DISK_THIN) {
+            step = n % RECORD_BLOCK_BYTES < HEADER_BYTES ? 1 : STRIDE;
             std::vector<uint8_t> damaged = bytes;
             damaged[n] ^= static_cast<uint8_t>(1u << n % 8);
             flips++;

@@ -281,16 +281,34 @@ void step(walker &w)
 
 /* --- and what must hold after each --- */
 
-/* Only the oldest is forgotten, with what is reached over it alone; and only when there is a reason. */
+/* Does another stroke go, or the tip, when this one does? */
+bool takes_others_along(const remembered &r, uint64_t stroke)
+{
+    uint64_t after = 0, first = 0; /* strokes that began after it; that began where no stroke leads */
+    for (const auto &[other, parent] : r.kept) {
+        after += parent == stroke;
+        first += r.kept.count(parent) == 0;
+    }
+    const bool end = after == 0 && stroke != r.tip && stroke != r.cursor;
+    const bool start = first == 1 && r.kept.count(r.kept.at(stroke)) == 0 && r.kept.at(stroke) != r.cursor;
+    return !end && !start;
+}
+
+/* One at a time is forgotten: the oldest that takes nothing along; and only when there is a reason. */
 void follow_forgetting(walker &w)
 {
     remembered &r = w.r;
     const history &h = w.p->h;
-    while (!r.kept.empty() && !tree_find(&h.tree, r.kept.begin()->first)) {
+    const auto is_gone = [&h](const auto &s) { return tree_find(&h.tree, s.first) == nullptr; };
+    while (std::any_of(r.kept.begin(), r.kept.end(), is_gone)) {
+        const auto spare = std::find_if(r.kept.begin(), r.kept.end(),
+                                        [&r](const auto &s) { return !takes_others_along(r, s.first); });
+        ASSERT_NE(spare, r.kept.end());
+        ASSERT_EQ(tree_find(&h.tree, spare->first), nullptr) << "another one than stroke " << spare->first << " went";
         ASSERT_TRUE(r.kept.size() > h.settings.strokes ||
                     h.ring.bytes + h.settings.file_bytes > h.settings.budget_bytes)
-            << "stroke " << r.kept.begin()->first << " of " << r.kept.size() << " was forgotten without a reason";
-        r.kept.erase(r.kept.begin());
+            << "stroke " << spare->first << " of " << r.kept.size() << " was forgotten without a reason";
+        r.kept.erase(spare);
         settle(r);
     }
 }

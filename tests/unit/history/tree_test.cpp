@@ -291,6 +291,19 @@ void grow(seeded &chance, state &s)
     }
 }
 
+/* The first stroke whose forgetting takes nothing else away, tried one by one. */
+uint64_t first_spare(const state &s)
+{
+    for (const auto &[stroke, parent] : s.p) {
+        picture without = s.p;
+        without.erase(stroke);
+        prune(without, s.w.t.cursor);
+        if (without.size() + 1 == s.p.size() && is_forth(without, s.w.t.cursor, s.w.t.tip))
+            return stroke;
+    }
+    return 0;
+}
+
 TEST(tree, is_the_picture_at_every_step)
 {
     size_t largest = 0, forks = 0;
@@ -304,6 +317,7 @@ TEST(tree, is_the_picture_at_every_step)
             for (int more = 0; more < 8; more++)
                 ASSERT_NO_FATAL_FAILURE(expect_ways_like(s.w.t, s.p, any_state(chance, s), any_state(chance, s),
                                                          any_state(chance, s)));
+            ASSERT_EQ(tree_spare(&s.w.t), first_spare(s));
             largest = std::max(largest, s.p.size());
             forks = std::max(forks, ends(s.p).size());
         }

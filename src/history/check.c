@@ -5,6 +5,7 @@
 #include "history/checkpoint.h"
 #include "history/history.h"
 #include "history/ring.h"
+#include "history/stored_file.h"
 
 #include <string.h>
 
@@ -43,15 +44,9 @@ static void note(check *c, const char *file, uint64_t offset, const char *expect
 static status look_at(const check *c, const char *name, uint64_t offset, record *r, uint8_t *bytes, size_t *have_out,
                       preamble_trouble *trouble)
 {
-    size_t got = 0;
-    status s = STATUS_OK;
-    *have_out = 0;
+    const stored_file f = {c->store, name};
     *trouble = (preamble_trouble){0, "readable bytes"};
-    do {
-        s = c->store->read(c->store->self, name, offset + *have_out, bytes + *have_out,
-                           PREAMBLE_HEADER_BYTES_MAX - *have_out, &got);
-        *have_out += got;
-    } while (s == STATUS_OK && got > 0 && *have_out < PREAMBLE_HEADER_BYTES_MAX);
+    status s = stored_file_read(&f, offset, bytes, PREAMBLE_HEADER_BYTES_MAX, have_out);
     return s == STATUS_OK ? record_read(r, bytes, *have_out, trouble) : s;
 }
 
@@ -134,20 +129,9 @@ static void find_newest(check *c)
 
 /* --- checkpoints --- */
 
-typedef struct source {
-    const byte_store *store;
-    const char *name;
-} source;
-
-static status source_get(void *self, uint64_t offset, void *bytes, size_t n, size_t *got_out)
-{
-    const source *from = (const source *)self;
-    return from->store->read(from->store->self, from->name, offset, bytes, n, got_out);
-}
-
 static status look_at_field(check *c, const char *name)
 {
-    source from = {c->store, name};
+    stored_file from = {c->store, name};
     uint64_t size = 0;
     bool exists = false;
     status s = c->store->size(c->store->self, name, &size, &exists);
@@ -160,7 +144,7 @@ static status look_at_field(check *c, const char *name)
         return s;
     checkpoint_facts facts;
     checkpoint_trouble trouble;
-    s = checkpoint_read(&read, &facts, source_get, &from, &trouble);
+    s = checkpoint_read(&read, &facts, stored_file_get, &from, &trouble);
     clay_finish(&read);
     if (s == STATUS_NO_MEMORY)
         return s;

@@ -15,19 +15,20 @@
  *          it (checkpoint.h), made as "field.new" and renamed.
  *
  *          H1  What history_keep has answered STATUS_OK for survives a power cut at any instant, whatever the medium
- *              did with later writes. (history_keep: written, then synced, then counted. tests/crash)
+ *              did with later writes. (history_keep: written, then synced, then counted. tests/crash/crash_test.cpp)
  *          H2  After a cut the clay is in a state that existed: the last kept one, or one put after it; a stroke under
- *              way is there up to its last stretch that is, as one undo step. (recovery_run)
+ *              way is there up to its last stretch that is, as one undo step. (recovery_run. crash_test,
+ *              truncation_test)
  *          H3  From each of the two checkpoints all records lead to where the clay stands: no undo-file on that way is
- *              written anew. (history.c: may_go)
+ *              written anew. (history_keep.c: may_go. crash_test: small_rings)
  *          H4  A record begins on blocks of its own, and its file is as long as it will ever be: no write of a new
- *              record touches an old one. (ring_write, ring_make)
+ *              record touches an old one. (ring_write, ring_make. tests/unit/history/ring_test.cpp)
  *          H5  A file whose writing or sync failed gets no further record; what was meant for it is still in memory and
- *              goes to another. (history_keep)
+ *              goes to another. (history_keep. history_keep_test; fault_test)
  *          H6  Nothing that cannot be read is removed: it is renamed to "<name>.set-aside". (recovery_run,
- *              history_fetch)
- *          H7  When the medium fills up, undo reaches less far, oldest strokes first; then history_room refuses new
- *              strokes. What was put stays put. (history_keep)
+ *              history_fetch. recovery_damage_test)
+ *          H7  When the medium fills up, undo reaches less far; then history_room refuses new strokes. What was put
+ *              stays put. (history_keep. fault_test: fill levels)
  *          The hardware must keep what it said it flushed. Where it lies, H1 holds up to the first thing it lost, and
  *          recovery says that acknowledged strokes are missing.
  * Owner:   the caller owns the struct and the store; history owns its memory.

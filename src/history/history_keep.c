@@ -3,7 +3,7 @@
 #include "history/history.h"
 
 #include "history/sentence.h"
-#include "history/whole_file.h"
+#include "history/stored_file.h"
 
 #include <stdlib.h>
 
@@ -72,10 +72,11 @@ static void reclaim(history *h)
             continue;
         if (f->stroke != 0 && tree_find(&h->tree, f->stroke))
             continue;
-        if (!f->spoilt)
-            f->free = true;
-        else if (whole_file_set_aside(&h->store, ring_name_of(n).text) == STATUS_OK)
-            ring_forget(&h->ring, n);
+        f->free = !f->spoilt;
+        if (f->spoilt) {
+            status s = ring_set_aside(&h->ring, n);
+            (void)s; /* another time */
+        }
     }
 }
 
@@ -226,6 +227,7 @@ status history_field_begin(history *h, const clay *c)
 static status field_place(history *h)
 {
     const byte_store *store = &h->store;
+    const stored_file placed = {store, HISTORY_FIELD_NAME};
     uint64_t bytes;
     bool exists = false;
     status s = store->sync(store->self, FIELD_TEMPORARY);
@@ -233,7 +235,7 @@ static status field_place(history *h)
         s = store->size(store->self, HISTORY_FIELD_NAME, &bytes, &exists);
     const bool unread = exists && !h->field.there && h->field.sequence == 0; /* opening could not read it: H6 */
     if (s == STATUS_OK && unread)
-        s = whole_file_set_aside(store, HISTORY_FIELD_NAME);
+        s = stored_file_set_aside(&placed);
     if (s == STATUS_OK && exists && !unread) {
         h->before.there = false;
         s = store->rename(store->self, HISTORY_FIELD_NAME, HISTORY_FIELD_BEFORE_NAME);

@@ -2,7 +2,7 @@
 #include "history/recovery.h"
 
 #include "history/sentence.h"
-#include "history/whole_file.h"
+#include "history/stored_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -146,24 +146,13 @@ static status take_files(recovery *r)
 
 /* --- 3. the base --- */
 
-typedef struct field_source {
-    const byte_store *store;
-    const char *name;
-} field_source;
-
-static status field_get(void *self, uint64_t offset, void *bytes, size_t n, size_t *got_out)
-{
-    const field_source *f = (const field_source *)self;
-    return f->store->read(f->store->self, f->name, offset, bytes, n, got_out);
-}
-
-static void field_set_aside(recovery *r, const char *name, const checkpoint_trouble *trouble)
+static void field_set_aside(recovery *r, const stored_file *f, const checkpoint_trouble *trouble)
 {
     sentence text;
-    status s = whole_file_set_aside(&r->h->store, name);
+    status s = stored_file_set_aside(f);
     if (!tells(r, WEIGHT_FIELD, &text))
         return;
-    sentence_add(&text, name);
+    sentence_add(&text, f->name);
     sentence_add(&text, " is damaged at byte ");
     sentence_add_number(&text, trouble->offset, 1);
     sentence_add(&text, " (expected ");
@@ -174,7 +163,7 @@ static void field_set_aside(recovery *r, const char *name, const checkpoint_trou
 /* Reads one of the two into the clay, if it is there and sound. */
 static status read_field(recovery *r, const char *name, history_base *base_out, bool *read_out)
 {
-    field_source source = {&r->h->store, name};
+    stored_file source = {&r->h->store, name};
     checkpoint_trouble trouble;
     uint64_t size;
     bool exists = false;
@@ -183,11 +172,11 @@ static status read_field(recovery *r, const char *name, history_base *base_out, 
     if (s != STATUS_OK || !exists)
         return STATUS_OK;
     checkpoint_facts facts;
-    s = checkpoint_read(r->c, &facts, field_get, &source, &trouble);
+    s = checkpoint_read(r->c, &facts, stored_file_get, &source, &trouble);
     if (s == STATUS_IO)
         tell(r, WEIGHT_FIELD, name, " cannot be read");
     if (s == STATUS_CORRUPT)
-        field_set_aside(r, name, &trouble);
+        field_set_aside(r, &source, &trouble);
     if (s == STATUS_CORRUPT || s == STATUS_IO)
         return STATUS_OK;
     if (s != STATUS_OK)
@@ -202,10 +191,10 @@ static status read_field(recovery *r, const char *name, history_base *base_out, 
    sound. */
 static status look_at_field(recovery *r, const char *name, history_base *base_out)
 {
-    field_source source = {&r->h->store, name};
+    stored_file source = {&r->h->store, name};
     checkpoint_facts facts;
     checkpoint_trouble trouble;
-    status s = checkpoint_read_facts(&facts, field_get, &source, &trouble);
+    status s = checkpoint_read_facts(&facts, stored_file_get, &source, &trouble);
     if (s == STATUS_NEWER)
         tell(r, WEIGHT_NEWER, name, " was written by a newer version of this program");
     *base_out = (history_base){.there = s == STATUS_OK};
@@ -445,7 +434,7 @@ static bool loss_in(const recovery *r, uint32_t file)
 }
 
 /* The same for what a scan from the file's beginning does not come to. A use that is found there is not given again. */
-static bool loss_behind(const recovery *r, uint32_t file)
+static bool loss_behind(recovery *r, uint32_t file)
 {
     ring *of = &r->h->ring;
     const ring_file *f = &of->files[file];
@@ -473,8 +462,10 @@ static void look_beyond(recovery *r)
         f->spoilt = true; /* set aside as soon as nothing in it is needed */
         if (of->current == n)
             of->current = RING_NONE;
-        if (f->free && whole_file_set_aside(&r->h->store, ring_name_of(n).text) == STATUS_OK)
-            ring_forget(of, n);
+        if (f->free) {
+            status s = ring_set_aside(of, n);
+            (void)s; /* where that fails it stays, and nothing is written to it */
+        }
     }
     /* What a cut left over in a later file must not come between this one's records and those that follow. */
     if (of->current != RING_NONE && of->files[of->current].use < of->use)
@@ -496,12 +487,11 @@ static void put_unread_aside(recovery *r, uint32_t file)
     size_t got = 0;
     record first;
     const ring_name name = ring_name_of(file);
-    const byte_store *store = &r->h->store;
-    if (store->read(store->self, name.text, 0, mark, sizeof mark, &got) != STATUS_OK ||
-        memcmp(mark, none, sizeof mark) == 0 || ring_read_header(&r->h->ring, file, 0, &first) != STATUS_CORRUPT ||
-        whole_file_set_aside(store, name.text) != STATUS_OK)
+    const stored_file f = {&r->h->store, name.text};
+    if (stored_file_read(&f, 0, mark, sizeof mark, &got) != STATUS_OK || memcmp(mark, none, sizeof mark) == 0 ||
+        ring_read_header(&r->h->ring, file, 0, &first) != STATUS_CORRUPT ||
+        ring_set_aside(&r->h->ring, file) != STATUS_OK)
         return;
-    ring_forget(&r->h->ring, file);
     if (memcmp(mark, "glundo\r\n", sizeof mark) == 0)
         tell(r, WEIGHT_UNDO, name.text,
              " is of an earlier form and was set aside: its stroke cannot be undone any more");

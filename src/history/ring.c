@@ -2,6 +2,7 @@
 #include "history/ring.h"
 
 #include "history/sentence.h"
+#include "history/stored_file.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -124,7 +125,7 @@ status ring_make(ring *r, uint64_t bytes, uint32_t *file_out)
     return file_add(r, file, bytes);
 }
 
-void ring_forget(ring *r, uint32_t file)
+static void forget(ring *r, uint32_t file)
 {
     r->bytes -= r->files[file].bytes;
     memset(&r->files[file], 0, sizeof r->files[file]);
@@ -136,7 +137,17 @@ status ring_remove(ring *r, uint32_t file)
 {
     status s = r->store->remove(r->store->self, ring_name_of(file).text);
     if (s == STATUS_OK)
-        ring_forget(r, file);
+        forget(r, file);
+    return s;
+}
+
+status ring_set_aside(ring *r, uint32_t file)
+{
+    const ring_name name = ring_name_of(file);
+    const stored_file f = {r->store, name.text};
+    status s = stored_file_set_aside(&f);
+    if (s == STATUS_OK)
+        forget(r, file);
     return s;
 }
 
@@ -189,16 +200,8 @@ status ring_write(ring *r, uint32_t file, record *written, uint8_t *header)
 static status read_all(const ring *r, uint32_t file, uint64_t offset, uint8_t *bytes, size_t n, size_t *have_out)
 {
     const ring_name name = ring_name_of(file);
-    status s = STATUS_OK;
-    *have_out = 0;
-    while (s == STATUS_OK && *have_out < n) {
-        size_t got = 0;
-        s = r->store->read(r->store->self, name.text, offset + *have_out, bytes + *have_out, n - *have_out, &got);
-        if (got == 0)
-            break;
-        *have_out += got;
-    }
-    return s;
+    const stored_file f = {r->store, name.text};
+    return stored_file_read(&f, offset, bytes, n, have_out);
 }
 
 status ring_read_header(const ring *r, uint32_t file, uint64_t offset, record *r_out)

@@ -62,9 +62,9 @@ void ring_close(ring *r); /* a zeroed ring is fine */
 
 /* Makes one more file, under the lowest number that has none. */
 STATUS_CHECKED status ring_make(ring *r, uint64_t bytes, uint32_t *file_out);
-/* A file is no more: removed from the store, or set aside by the caller. */
+/* A file is the ring's no more: removed from the store, or set aside there (stored_file.h). */
 STATUS_CHECKED status ring_remove(ring *r, uint32_t file);
-void ring_forget(ring *r, uint32_t file);
+STATUS_CHECKED status ring_set_aside(ring *r, uint32_t file);
 /* The free file of so many bytes that was begun longest ago; RING_NONE: there is none. */
 uint32_t ring_free_file(const ring *r, uint64_t bytes_least);
 /* It becomes current, empty, of the next use. */

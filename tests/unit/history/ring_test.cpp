@@ -217,18 +217,19 @@ TEST(ring, beginning_gives_the_next_use_and_an_empty_file)
     EXPECT_FALSE(k.r.files[1].free);
 }
 
-TEST(ring, forgotten_file_is_current_no_more)
+TEST(ring, file_set_aside_is_current_no_more)
 {
     rings k;
     k.make();
     k.make();
     ring_begin(&k.r, 1, 5);
-    ring_forget(&k.r, 0);
+    ASSERT_EQ(ring_set_aside(&k.r, 0), STATUS_OK);
     EXPECT_EQ(k.r.current, 1u);
-    ring_forget(&k.r, 1);
+    ASSERT_EQ(ring_set_aside(&k.r, 1), STATUS_OK);
     EXPECT_EQ(k.r.current, RING_NONE);
     EXPECT_EQ(k.r.bytes, 0u);
-    EXPECT_EQ(k.m.files.size(), 2u) << "the caller has done with the file what he would";
+    EXPECT_EQ(k.m.files.size(), 2u);
+    EXPECT_EQ(k.m.files.count(std::string(ring_name_of(1).text) + ".set-aside"), 1u);
 }
 
 /* --- writing and reading --- */

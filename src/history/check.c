@@ -92,7 +92,7 @@ static status look_at_file(check *c, uint32_t file)
     preamble_trouble trouble = {0, ""};
     uint64_t offset = 0;
     status s = STATUS_OK;
-    for (;; offset += record_span(r.bytes)) {
+    for (;; offset += record_span(r.stored)) {
         s = look_at(c, name.text, offset, &r, bytes, &have, &trouble);
         if (s != STATUS_OK || (last.use != 0 && r.use != last.use))
             break;

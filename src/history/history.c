@@ -101,7 +101,7 @@ static size_t record_bytes_most(const history *h)
 typedef struct layout {
     history_held *first, *last;
     uint64_t digest, bytes;
-    uint32_t records;
+    uint8_t *bricks; /* of the record that is being laid out, not packed */
 } layout;
 
 static void layout_add(layout *l, history_held *held)
@@ -112,40 +112,53 @@ static void layout_add(layout *l, history_held *held)
     else
         l->first = held;
     l->last = held;
-    l->bytes += RECORD_HEADER_BYTES + held->r.bytes;
-    l->records++;
+    l->bytes += RECORD_HEADER_BYTES + held->r.stored;
+}
+
+/* A record of the bricks in l->bricks, as it will lie on the medium. */
+static status layout_add_packed(layout *l, const record *r)
+{
+    const size_t room = sizeof(history_held) + RECORD_HEADER_BYTES;
+    history_held *held = (history_held *)malloc(room + (size_t)r->bytes);
+    if (!held)
+        return STATUS_NO_MEMORY;
+    held->r = *r;
+    record_pack(&held->r, (uint8_t *)held + room, l->bricks);
+    history_held *fits = (history_held *)realloc(held, room + (size_t)held->r.stored);
+    held = fits ? fits : held;
+    held->bytes = (uint8_t *)(held + 1);
+    layout_add(l, held);
+    return STATUS_OK;
 }
 
 /* As many bricks as one record takes, from *at on; no record when none of them changed. */
 static status lay_record(const history *h, const delta *d, lanes rows, uint32_t *at, layout *l)
 {
     const size_t most = record_bytes_most(h);
-    const size_t room = RECORD_HEADER_BYTES + most + SIEVE_ROWS_SLACK_BYTES;
-    history_held *held = (history_held *)malloc(sizeof *held + room);
-    if (!held)
-        return STATUS_NO_MEMORY;
-    held->bytes = (uint8_t *)(held + 1);
-    held->r = (record){.digest_before = l->digest};
-    for (; *at < d->count && held->r.bytes + RECORD_BRICK_BYTES_MAX <= most; ++*at) {
+    record r = {.digest_before = l->digest};
+    for (; *at < d->count && r.bytes + RECORD_BRICK_BYTES_MAX <= most; ++*at) {
         const delta_brick *b = &d->bricks[*at];
-        const size_t took =
-            record_put_brick(held->bytes + RECORD_HEADER_BYTES + held->r.bytes, b->at, b->old, b->now, rows);
-        held->r.bytes += took;
-        held->r.bricks += took > 0;
+        const size_t took = record_put_brick(l->bricks + r.bytes, b->at, b->old, b->now, rows);
+        r.bytes += took;
+        r.bricks += took > 0;
         if (took > 0)
             l->digest += brick_digest(b->at, b->now, rows) - brick_digest(b->at, b->old, rows);
     }
-    held->r.digest_after = l->digest;
-    if (held->r.bricks == 0) {
-        free(held);
-        return STATUS_OK;
-    }
-    history_held *fits =
-        (history_held *)realloc(held, sizeof *held + RECORD_HEADER_BYTES + (size_t)held->r.bytes);
-    held = fits ? fits : held;
-    held->bytes = (uint8_t *)(held + 1);
-    layout_add(l, held);
-    return STATUS_OK;
+    r.digest_after = l->digest;
+    return r.bricks > 0 ? layout_add_packed(l, &r) : STATUS_OK;
+}
+
+/* All of a delta. On failure there is nothing to free. */
+static status layout_fill(layout *l, const history *h, const delta *d, lanes rows)
+{
+    l->bricks = (uint8_t *)malloc(record_bytes_most(h) + SIEVE_ROWS_SLACK_BYTES);
+    status s = l->bricks ? STATUS_OK : STATUS_NO_MEMORY;
+    for (uint32_t at = 0; s == STATUS_OK && at < d->count;)
+        s = lay_record(h, d, rows, &at, l);
+    free(l->bricks);
+    if (s != STATUS_OK)
+        held_free(l->first);
+    return s;
 }
 
 /* Takes the layout over: its records have their numbers from now on. */
@@ -178,15 +191,15 @@ static void checkpoint_when_due(history *h)
 status history_put(history *h, const delta *d, uint64_t dab, bool ends, lanes rows)
 {
     layout l = {.digest = h->digest};
-    status s = STATUS_OK;
-    for (uint32_t at = 0; s == STATUS_OK && at < d->count;)
-        s = lay_record(h, d, rows, &at, &l);
+    status s = layout_fill(&l, h, d, rows);
+    if (s != STATUS_OK)
+        return s;
     const bool begins = !h->in_stroke;
     const tree_stroke stroke = {.stroke = begins ? h->stroke + 1 : h->stroke,
                                 .parent = begins ? h->tree.cursor : 0,
                                 .digest_before = h->digest,
                                 .digest_after = l.digest};
-    if (s == STATUS_OK && l.first)
+    if (l.first)
         s = tree_put(&h->tree, stroke); /* one that is there keeps its parent */
     if (s != STATUS_OK || !l.first) {
         held_free(l.first);
@@ -241,24 +254,42 @@ typedef struct reading {
     uint64_t stroke;
     uint32_t part, group; /* the next ones */
     uint64_t digest_before, digest_after;
-    byte_buffer buffer;
 } reading;
 
-static status take_record(reading *g, const record *r, const uint8_t *bricks)
+/* Takes `own` over: the record's bricks, in memory of their own. */
+static status take_record(reading *g, const record *r, uint8_t *own)
 {
-    if (r->part != g->part++ || (r->part > 0 && r->digest_before != g->digest_after))
-        return STATUS_CORRUPT;
+    const bool follows = r->part == g->part && (r->part == 0 || r->digest_before == g->digest_after);
+    status s = follows ? route_add(g->into, own, (size_t)r->bytes, g->group) : STATUS_CORRUPT;
+    if (s != STATUS_OK) {
+        free(own);
+        return s;
+    }
     if (r->part == 0)
         g->digest_before = r->digest_before;
     g->digest_after = r->digest_after;
-    uint8_t *own = (uint8_t *)malloc((size_t)r->bytes);
-    if (!own)
-        return STATUS_NO_MEMORY;
-    memcpy(own, bricks, (size_t)r->bytes);
-    status s = route_add(g->into, own, (size_t)r->bytes, g->group);
-    if (s != STATUS_OK)
-        free(own);
+    g->part++;
     g->group += (r->marks & RECORD_WHOLE) != 0;
+    return STATUS_OK;
+}
+
+static status take_kept(reading *g, uint32_t file, uint64_t offset, const record *r)
+{
+    byte_buffer buffer = {NULL, 0, 0};
+    status s = ring_read_bricks(&g->h->ring, file, offset, r, &buffer);
+    if (s == STATUS_OK)
+        return take_record(g, r, buffer.bytes);
+    byte_buffer_finish(&buffer);
+    return s;
+}
+
+static status take_held(reading *g, const history_held *held)
+{
+    uint8_t *own = (uint8_t *)malloc((size_t)held->r.bytes);
+    status s = own ? record_unpack(&held->r, held->bytes + RECORD_HEADER_BYTES, own) : STATUS_NO_MEMORY;
+    if (s == STATUS_OK)
+        return take_record(g, &held->r, own);
+    free(own);
     return s;
 }
 
@@ -274,12 +305,9 @@ static status read_file(reading *g, uint32_t file)
             s = STATUS_CORRUPT;
         if (s != STATUS_OK || r.sequence > f->last)
             break;
-        if (r.stroke == g->stroke) {
-            s = ring_read_bricks(of, file, offset, &r, &g->buffer);
-            if (s == STATUS_OK)
-                s = take_record(g, &r, g->buffer.bytes);
-        }
-        offset += record_span(r.bytes);
+        if (r.stroke == g->stroke)
+            s = take_kept(g, file, offset, &r);
+        offset += record_span(r.stored);
     }
     return s;
 }
@@ -296,7 +324,7 @@ static status read_stroke(reading *g)
     }
     for (const history_held *held = g->h->held_first; s == STATUS_OK && held; held = held->next)
         if (held->r.stroke == g->stroke)
-            s = take_record(g, &held->r, held->bytes + RECORD_HEADER_BYTES);
+            s = take_held(g, held);
     const tree_stroke *known = tree_find(&g->h->tree, g->stroke);
     if (s == STATUS_OK && (g->part == 0 || g->digest_before != known->digest_before ||
                            g->digest_after != known->digest_after))
@@ -310,7 +338,6 @@ static status read_leg(const history *h, tree_leg leg, route *into)
     const uint32_t from = into->count;
     g.group = from > 0 ? into->legs[from - 1].group + 1 : 0;
     status s = read_stroke(&g);
-    byte_buffer_finish(&g.buffer);
     if (s == STATUS_OK && (leg.back ? g.digest_after : g.digest_before) != into->digest_after)
         s = STATUS_CORRUPT;
     if (s != STATUS_OK)

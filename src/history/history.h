@@ -34,7 +34,7 @@
  * Owner:   the caller owns the struct and the store; history owns its memory.
  * Errors:  STATUS_HISTORY_ENDS; STATUS_IO, STATUS_NO_SPACE, STATUS_CORRUPT, STATUS_NEWER, STATUS_POOL_FULL,
  *          STATUS_NO_MEMORY. `trouble` is a sentence for the person where there is more to say.
- * Cost:    history_put: the changed bricks compared, hashed, copied (1 us each). history_keep: a write and a sync for
+ * Cost:    history_put: the changed bricks compared, hashed, packed (2 us each). history_keep: a write and a sync for
  *          all that was put. A checkpoint: the whole field, in slices of HISTORY_SLICE_BYTES.
  * Source:  000 section 3.3; 002 section 2.3; facts/devices.md G.
  */
@@ -80,7 +80,7 @@ typedef struct history_finding {
 typedef struct history_held {
     struct history_held *next;
     record r;
-    uint8_t *bytes; /* header, bricks: they lie right behind */
+    uint8_t *bytes; /* header, and what follows it on the medium: they lie right behind */
 } history_held;
 
 /* A checkpoint on the medium. */
@@ -116,7 +116,7 @@ typedef struct history {
     bool wants_field;        /* a checkpoint is due: give one to history_field_begin, between strokes */
     uint64_t put_since, strokes_since; /* bytes, strokes: since the last checkpoint was begun */
     checkpoint_writer *writer; /* NULL: none is being written */
-    uint64_t written;          /* bytes of it */
+    uint64_t written, unsynced; /* bytes of it */
     checkpoint_facts writing;
     history_finding trouble;   /* what went wrong last; the caller may empty it */
 } history;

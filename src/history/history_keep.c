@@ -9,7 +9,8 @@
 
 #define FIELD_TEMPORARY HISTORY_FIELD_NAME ".new"
 
-enum { SYNC_SLICES = 8 }; /* of a checkpoint, between two syncs: the last one should not take long */
+/* Of a checkpoint, between two syncs: the last one should not take long. */
+enum { SYNC_BYTES = 8 * 1024 * 1024 };
 
 static void tell(history *h, const char *what, status why)
 {
@@ -110,7 +111,7 @@ static status file_take(history *h, uint32_t *file_out)
 static bool goes_into(const history *h, uint32_t file, const record *r)
 {
     return file != RING_NONE && (r->stroke == 0 || r->stroke == h->ring.files[file].stroke) &&
-           ring_has_room(&h->ring, file, r->bytes);
+           ring_has_room(&h->ring, file, r->stored);
 }
 
 static void held_drop(history *h, const history_held *end)
@@ -122,7 +123,7 @@ static void held_drop(history *h, const history_held *end)
             h->kept_cursor = held->r.cursor;
             h->kept_digest = held->r.digest_after;
         }
-        h->held_bytes -= RECORD_HEADER_BYTES + held->r.bytes;
+        h->held_bytes -= RECORD_HEADER_BYTES + held->r.stored;
         free(held);
     }
     if (!h->held_first)
@@ -193,6 +194,7 @@ static status field_put(void *self, const void *bytes, size_t n)
     history *h = (history *)self;
     status s = h->store.write(h->store.self, FIELD_TEMPORARY, h->written, bytes, n);
     h->written += n;
+    h->unsynced += n;
     return s;
 }
 
@@ -214,7 +216,7 @@ status history_field_begin(history *h, const clay *c)
                                     .seal = h->seal,
                                     .dab = h->dab,
                                     .digest = h->digest};
-    h->written = 0;
+    h->written = h->unsynced = 0;
     h->wants_field = false;
     h->strokes_since = 0;
     h->put_since = 0;
@@ -254,8 +256,10 @@ static void field_work(history *h)
 {
     bool done = false;
     status s = checkpoint_writer_step(h->writer, HISTORY_SLICE_BYTES, &done);
-    if (s == STATUS_OK && !done && h->written / HISTORY_SLICE_BYTES % SYNC_SLICES == 0)
+    if (s == STATUS_OK && !done && h->unsynced >= SYNC_BYTES) {
         s = h->store.sync(h->store.self, FIELD_TEMPORARY);
+        h->unsynced = 0;
+    }
     if (s == STATUS_OK && done)
         s = field_place(h);
     if (s == STATUS_OK && !done)

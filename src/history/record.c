@@ -4,10 +4,12 @@
 #include "clay/digest.h"
 #include "clay/sieve_rows.h"
 #include "history/byte_order.h"
+#include "history/packing.h"
 
 #include <math.h>
 
 enum {
+    VERSION_AT = 8,
     SEQUENCE_AT = 16,
     USE_AT = 24,
     BEFORE_AT = 32,
@@ -25,6 +27,7 @@ enum {
     BYTES_AT = 120,
     PART_AT = 128,
     ZERO_AT = 132,
+    STORED_AT = 136,
     CHECK_AT = 144,
     SEAL_AT = 152,
     BRICK_COUNT_AT = 12,
@@ -32,6 +35,7 @@ enum {
 };
 
 static const preamble header_preamble = {"glring\r\n", RECORD_VERSION, RECORD_HEADER_BYTES};
+static const preamble header_preamble_1 = {"glring\r\n", 1, RECORD_HEADER_BYTES};
 
 static const brick_page empty_page;
 
@@ -61,10 +65,16 @@ size_t record_put_brick(uint8_t *to, key at, const brick_page *old, const brick_
     return RECORD_BRICK_HEAD_BYTES + (size_t)corners * RECORD_CORNER_BYTES;
 }
 
+void record_pack(record *r, uint8_t *to, const uint8_t *bricks)
+{
+    assert(r->bytes <= RECORD_PACKED_MOST);
+    r->stored = packing_pack(to, bricks, (size_t)r->bytes);
+}
+
 void record_seal(record *r, uint8_t *header)
 {
     uint8_t *h = header;
-    r->check = digest_bytes(h + RECORD_HEADER_BYTES, (size_t)r->bytes, r->sequence);
+    r->check = digest_bytes(h + RECORD_HEADER_BYTES, (size_t)r->stored, r->sequence);
     byte_order_put_u64(h + SEQUENCE_AT, r->sequence);
     byte_order_put_u64(h + USE_AT, r->use);
     byte_order_put_u64(h + BEFORE_AT, r->before);
@@ -81,7 +91,8 @@ void record_seal(record *r, uint8_t *header)
     byte_order_put_u64(h + KEPT_AT, r->kept);
     byte_order_put_u64(h + BYTES_AT, r->bytes);
     byte_order_put_u32(h + PART_AT, r->part);
-    memset(h + ZERO_AT, 0, CHECK_AT - ZERO_AT);
+    byte_order_put_u32(h + ZERO_AT, 0);
+    byte_order_put_u64(h + STORED_AT, r->stored);
     byte_order_put_u64(h + CHECK_AT, r->check);
     preamble_seal(&header_preamble, h);
     r->seal = byte_order_get_u64(h + SEAL_AT);
@@ -108,7 +119,7 @@ static status look_at(const record *r, preamble_trouble *trouble)
     if (r->stroke > RECORD_STROKE_MAX || (move ? r->parent != 0 : r->parent >= r->stroke))
         return refuse(trouble, STROKE_AT, "a stroke after the one it began at");
     if (r->marks > RECORD_WHOLE || (move && r->marks != RECORD_WHOLE))
-        return refuse(trouble, MARKS_AT, "a mark that version 1 knows");
+        return refuse(trouble, MARKS_AT, "no mark, or that of a whole state");
     if (r->tip > RECORD_STROKE_MAX || r->cursor > r->tip || (!move && (r->cursor != r->stroke || r->tip != r->stroke)))
         return refuse(trouble, CURSOR_AT, "a cursor at the stroke, or before the tip");
     if (r->kept >= r->sequence)
@@ -119,15 +130,18 @@ static status look_at(const record *r, preamble_trouble *trouble)
         return refuse(trouble, BRICKS_AT, "bricks in a stroke, and none in a move");
     if (r->bytes < least || r->bytes > most)
         return refuse(trouble, BYTES_AT, "the bytes of 1 to 512 corners a brick");
+    if (r->stored != r->bytes && (r->stored < 1 || r->stored > r->bytes || r->bytes > RECORD_PACKED_MOST))
+        return refuse(trouble, STORED_AT, "as many bytes as the bricks have, or fewer where these are packed");
     return STATUS_OK;
 }
 
 status record_read(record *r_out, const uint8_t *bytes, size_t have, preamble_trouble *trouble_out)
 {
-    status s = preamble_check(&header_preamble, bytes, have, trouble_out);
+    const bool first_version = have >= RECORD_HEADER_BYTES && byte_order_get_u32(bytes + VERSION_AT) == 1;
+    status s = preamble_check(first_version ? &header_preamble_1 : &header_preamble, bytes, have, trouble_out);
     if (s != STATUS_OK)
         return s;
-    const record r = {
+    record r = {
         .sequence = byte_order_get_u64(bytes + SEQUENCE_AT),
         .use = byte_order_get_u64(bytes + USE_AT),
         .before = byte_order_get_u64(bytes + BEFORE_AT),
@@ -144,12 +158,15 @@ status record_read(record *r_out, const uint8_t *bytes, size_t have, preamble_tr
         .step_mm = byte_order_get_double(bytes + STEP_AT),
         .kept = byte_order_get_u64(bytes + KEPT_AT),
         .bytes = byte_order_get_u64(bytes + BYTES_AT),
+        .stored = byte_order_get_u64(bytes + STORED_AT),
         .check = byte_order_get_u64(bytes + CHECK_AT),
         .seal = byte_order_get_u64(bytes + SEAL_AT),
     };
+    if (byte_order_get_u32(bytes + ZERO_AT) != 0 || (first_version && r.stored != 0))
+        return refuse(trouble_out, ZERO_AT, "zeros");
+    if (first_version)
+        r.stored = r.bytes;
     s = look_at(&r, trouble_out);
-    if (s == STATUS_OK && memcmp(bytes + ZERO_AT, &empty_page, CHECK_AT - ZERO_AT) != 0)
-        s = refuse(trouble_out, ZERO_AT, "zeros");
     if (s == STATUS_OK)
         *r_out = r;
     return s;
@@ -184,10 +201,21 @@ static bool differs_everywhere(const record_brick *b)
     return true;
 }
 
-status record_check(const record *r, const uint8_t *bricks, preamble_trouble *trouble_out)
+status record_unpack(const record *r, const uint8_t *stored, uint8_t *bricks_out)
 {
-    if (r->check != digest_bytes(bricks, (size_t)r->bytes, r->sequence))
+    return packing_unpack(bricks_out, (size_t)r->bytes, stored, (size_t)r->stored);
+}
+
+status record_check(const record *r, const uint8_t *stored, uint8_t *bricks_out, preamble_trouble *trouble_out)
+{
+    const uint8_t *bricks = bricks_out;
+    if (r->check != digest_bytes(stored, (size_t)r->stored, r->sequence))
         return refuse(trouble_out, 0, "the checksum of the bricks");
+    status s = record_unpack(r, stored, bricks_out);
+    if (s != STATUS_OK) {
+        *trouble_out = (preamble_trouble){0, "bytes that this program can unpack"};
+        return s;
+    }
     size_t offset = 0;
     record_brick b, last = {.corners = 0};
     for (uint32_t n = 0; n < r->bricks; n++) {

@@ -90,7 +90,7 @@ static status scan(recovery *r, uint32_t file)
         if (s != STATUS_OK)
             return s;
         last = f.r;
-        f.offset += record_span(f.r.bytes);
+        f.offset += record_span(f.r.stored);
         of->files[file].use = last.use;
         of->use = last.use > of->use ? last.use : of->use;
     }
@@ -106,6 +106,15 @@ static status scan(recovery *r, uint32_t file)
 
 /* --- 2. which of the records count --- */
 
+/* The same record may have been written twice, because the sync of its first file failed (H5), and the second file be
+   lost since: what the first says is true all the same. */
+static bool leads_to(const record *before, const record *r)
+{
+    const bool same_stroke = r->stroke != 0 && before->stroke == r->stroke;
+    const bool in_place = same_stroke ? r->part == before->part + 1 : r->stroke == 0 || r->parent == before->cursor;
+    return before->digest_after == r->digest_before && in_place;
+}
+
 /* Records first..end-1 of r->seen are one file's, the uses before it are done. Where it was begun, the clay stood at
    the record before its first one: what earlier files say of that sequence and those behind it is no more, and so is
    a record before that is not the one it goes on from. */
@@ -116,7 +125,7 @@ static status take_file(recovery *r, size_t first, size_t end)
     while (l->count > 0 && l->at[l->count - 1].r.sequence >= start->sequence)
         l->count--;
     const record *last = l->count > 0 ? &l->at[l->count - 1].r : NULL;
-    if (last && last->sequence + 1 == start->sequence && !follows(start, last))
+    if (last && last->sequence + 1 == start->sequence && !follows(start, last) && !leads_to(last, start))
         l->count--;
     status s = STATUS_OK;
     for (size_t n = first; s == STATUS_OK && n < end; n++)
@@ -260,7 +269,7 @@ static void settle_files(recovery *r)
             file->first = f->r.sequence;
         file->free = false;
         file->last = f->r.sequence;
-        file->end = f->offset + record_span(f->r.bytes);
+        file->end = f->offset + record_span(f->r.stored);
         file->stroke = f->r.stroke ? f->r.stroke : file->stroke;
         of->current = f->file;
         r->newest = file->use > r->newest ? file->use : r->newest;

@@ -173,10 +173,10 @@ void ring_begin(ring *r, uint32_t file, uint64_t stroke)
     r->current = file;
 }
 
-bool ring_has_room(const ring *r, uint32_t file, uint64_t brick_bytes)
+bool ring_has_room(const ring *r, uint32_t file, uint64_t stored)
 {
     const ring_file *f = &r->files[file];
-    return !f->spoilt && f->bytes >= f->end && f->bytes - f->end >= record_span(brick_bytes);
+    return !f->spoilt && f->bytes >= f->end && f->bytes - f->end >= record_span(stored);
 }
 
 status ring_write(ring *r, uint32_t file, record *written, uint8_t *header)
@@ -184,14 +184,14 @@ status ring_write(ring *r, uint32_t file, record *written, uint8_t *header)
     ring_file *f = &r->files[file];
     written->use = f->use;
     record_seal(written, header);
-    const size_t n = RECORD_HEADER_BYTES + (size_t)written->bytes;
+    const size_t n = RECORD_HEADER_BYTES + (size_t)written->stored;
     status s = r->store->write(r->store->self, ring_name_of(file).text, f->end, header, n);
     if (s != STATUS_OK)
         return s;
     if (f->last < f->first)
         f->first = written->sequence;
     f->last = written->sequence;
-    f->end += record_span(written->bytes);
+    f->end += record_span(written->stored);
     return STATUS_OK;
 }
 
@@ -212,20 +212,23 @@ status ring_read_header(const ring *r, uint32_t file, uint64_t offset, record *r
     status s = read_all(r, file, offset, bytes, sizeof bytes, &have);
     if (s == STATUS_OK)
         s = record_read(r_out, bytes, have, &trouble);
-    if (s == STATUS_OK && record_span(r_out->bytes) > r->files[file].bytes - offset)
+    if (s == STATUS_OK && record_span(r_out->stored) > r->files[file].bytes - offset)
         s = STATUS_CORRUPT;
     return s;
 }
 
 status ring_read_bricks(const ring *r, uint32_t file, uint64_t offset, const record *header, byte_buffer *out)
 {
+    const size_t bytes = (size_t)header->bytes, stored = (size_t)header->stored;
     preamble_trouble trouble;
-    status s = byte_buffer_reserve(out, (size_t)header->bytes);
+    size_t have = 0;
+    status s = byte_buffer_reserve(out, bytes + stored + 1); /* a move has neither, and no NULL */
     if (s == STATUS_OK)
-        s = read_all(r, file, offset + RECORD_HEADER_BYTES, out->bytes, (size_t)header->bytes, &out->size);
-    if (s == STATUS_OK && out->size < header->bytes)
+        s = read_all(r, file, offset + RECORD_HEADER_BYTES, out->bytes + bytes, stored, &have);
+    if (s == STATUS_OK && have < stored)
         s = STATUS_CORRUPT;
-    return s == STATUS_OK ? record_check(header, out->bytes, &trouble) : s;
+    out->size = bytes;
+    return s == STATUS_OK ? record_check(header, out->bytes + bytes, out->bytes, &trouble) : s;
 }
 
 uint32_t ring_next_file(const ring *r, uint64_t stroke, uint64_t use)

@@ -69,7 +69,7 @@ STATUS_CHECKED status ring_set_aside(ring *r, uint32_t file);
 uint32_t ring_free_file(const ring *r, uint64_t bytes_least);
 /* It becomes current, empty, of the next use. */
 void ring_begin(ring *r, uint32_t file, uint64_t stroke);
-bool ring_has_room(const ring *r, uint32_t file, uint64_t brick_bytes);
+bool ring_has_room(const ring *r, uint32_t file, uint64_t stored);
 /* Seals the record and writes it: header and bricks lie in one piece, header first. It counts from then on. */
 STATUS_CHECKED status ring_write(ring *r, uint32_t file, record *written, uint8_t *header);
 

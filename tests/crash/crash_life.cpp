@@ -136,8 +136,10 @@ std::string disk_as_text(const sim_disk &d)
             preamble_trouble trouble;
             if (record_read(&r, f->now.data() + at, f->now.size() - at, &trouble) != STATUS_OK)
                 continue;
-            const bool sound = RECORD_HEADER_BYTES + r.bytes <= f->now.size() - at &&
-                               record_check(&r, f->now.data() + at + RECORD_HEADER_BYTES, &trouble) == STATUS_OK;
+            std::vector<uint8_t> bricks(static_cast<size_t>(r.bytes) + 1);
+            const bool sound = RECORD_HEADER_BYTES + r.stored <= f->now.size() - at &&
+                               record_check(&r, f->now.data() + at + RECORD_HEADER_BYTES, bricks.data(), &trouble) ==
+                                   STATUS_OK;
             text += " [" + std::to_string(at / RECORD_BLOCK_BYTES) + ": use " + std::to_string(r.use) + " seq " +
                     std::to_string(r.sequence) + " stroke " + std::to_string(r.stroke) + "/" +
                     std::to_string(r.part) + " from " + std::to_string(r.parent) + " cursor " +
@@ -186,7 +188,7 @@ std::set<uint64_t> kept_claims(const sim_disk &d)
             if (record_read(&r, f->now.data() + at, f->now.size() - at, &trouble) != STATUS_OK)
                 continue;
             use = at == 0 ? r.use : use;
-            if ((use == 0 || r.use == use) && record_span(r.bytes) <= f->now.size() - at)
+            if ((use == 0 || r.use == use) && record_span(r.stored) <= f->now.size() - at)
                 claims.insert(r.kept);
         }
     }

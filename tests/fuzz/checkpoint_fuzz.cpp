@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Goal    No bytes make the reader of sculpture files read outside them, allocate more than they could hold, or change
- *         the clay without saying STATUS_OK; and what it accepts is a field whose file is those bytes and no others.
+ *         the clay without saying STATUS_OK; and what it accepts is a field whose file has those bricks and no others.
  * Method  The first byte chooses: the rest are a file; a file whose checksums are put right; or corners to write into
- *         clay, whose file, of either version, must pass, and is then changed in up to four places, its checksums
- *         perhaps put right.
+ *         clay, whose file, of any version, packed or not, must pass, and is then changed in up to four places, its
+ *         checksums perhaps put right.
  */
 #include <algorithm>
 #include <cstddef>
@@ -16,6 +16,7 @@
 #include "clay/digest.h"
 #include "history/byte_order.h"
 #include "history/checkpoint.h"
+#include "history/packing.h"
 
 namespace {
 
@@ -55,11 +56,10 @@ status give(void *self, uint64_t offset, void *bytes, size_t n, size_t *got)
     return STATUS_OK;
 }
 
-/* Bytes of the header that the version has; that of version 1 where they say so. */
-size_t header_of(const byte_string &b)
-{
-    return b.size() >= HEADER_1 && byte_order_get_u32(&b[8]) == 1 ? size_t{HEADER_1} : size_t{HEADER};
-}
+uint32_t version_of(const byte_string &b) { return b.size() >= HEADER_1 ? byte_order_get_u32(&b[8]) : 3; }
+
+/* Bytes of the header that the version has. */
+size_t header_of(const byte_string &b) { return version_of(b) == 1 ? size_t{HEADER_1} : size_t{HEADER}; }
 
 void put_checksums_right(byte_string &b)
 {
@@ -67,8 +67,10 @@ void put_checksums_right(byte_string &b)
     if (b.size() < header)
         return;
     byte_order_put_u64(&b[header - 8], digest_bytes(b.data(), header - 8, 0));
-    for (size_t at = header; at + 88 <= b.size();) {
-        const uint64_t vouched = 80 + uint64_t{8} * byte_order_get_u32(&b[at + 12]);
+    const bool blocks = version_of(b) >= 3;
+    for (size_t at = header; at + (blocks ? 8 : 88) <= b.size();) {
+        const uint64_t vouched = blocks ? 8 + uint64_t{byte_order_get_u32(&b[at + 4])}
+                                        : 80 + uint64_t{8} * byte_order_get_u32(&b[at + 12]);
         if (vouched + 8 > b.size() - at)
             return;
         byte_order_put_u64(&b[at + vouched], digest_bytes(&b[at], vouched, 0));
@@ -83,15 +85,49 @@ byte_string file_of(const clay &c, const checkpoint_facts &facts)
     return out;
 }
 
-/* The same field as version 1 wrote it: the header is shorter, and the cursor was the sequence. */
-byte_string as_version_1(const byte_string &file, uint64_t cursor)
+/* The bricks of a sound file, as version 3 has them in its blocks. */
+byte_string bricks_of(const byte_string &file)
 {
-    byte_string out(file.begin(), file.begin() + HEADER_1);
-    byte_order_put_u32(&out[8], 1);
-    byte_order_put_u32(&out[12], HEADER_1);
-    byte_order_put_u64(&out[24], cursor);
-    byte_order_put_u64(&out[HEADER_1 - 8], digest_bytes(out.data(), HEADER_1 - 8, 0));
-    out.insert(out.end(), file.begin() + HEADER, file.end());
+    byte_string all;
+    for (size_t at = header_of(file); at < file.size();) {
+        if (version_of(file) >= 3) {
+            const uint32_t bytes = byte_order_get_u32(&file[at]), stored = byte_order_get_u32(&file[at + 4]);
+            all.resize(all.size() + bytes);
+            require(packing_unpack(&all[all.size() - bytes], bytes, &file[at + 8], stored) == STATUS_OK);
+            at += 8 + size_t{stored} + 8;
+        } else {
+            const size_t bytes = 80 + size_t{8} * byte_order_get_u32(&file[at + 12]);
+            all.insert(all.end(), &file[at], &file[at] + bytes);
+            at += bytes + 8;
+        }
+    }
+    return all;
+}
+
+/* The same field as another version wrote it; version 3: in one block that is not packed. */
+byte_string as_version(uint32_t version, const byte_string &file, uint64_t cursor)
+{
+    const size_t header = version == 1 ? size_t{HEADER_1} : size_t{HEADER};
+    const byte_string bricks = bricks_of(file);
+    byte_string out(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(header));
+    byte_order_put_u32(&out[8], version);
+    byte_order_put_u32(&out[12], static_cast<uint32_t>(header));
+    if (version == 1)
+        byte_order_put_u64(&out[24], cursor);
+    if (version >= 3) {
+        const size_t bytes = bricks.size();
+        out.resize(header + 8 + bytes + 8);
+        byte_order_put_u32(&out[header], static_cast<uint32_t>(bytes));
+        byte_order_put_u32(&out[header + 4], static_cast<uint32_t>(bytes));
+        std::copy(bricks.begin(), bricks.end(), out.begin() + static_cast<std::ptrdiff_t>(header) + 8);
+    }
+    for (size_t at = 0; version < 3 && at < bricks.size();) {
+        const size_t bytes = 80 + size_t{8} * byte_order_get_u32(&bricks[at + 12]);
+        out.insert(out.end(), &bricks[at], &bricks[at] + bytes);
+        out.resize(out.size() + 8);
+        at += bytes;
+    }
+    put_checksums_right(out);
     return out;
 }
 
@@ -117,9 +153,9 @@ status read_file(byte_string file)
     const status s = checkpoint_read(&c, &facts, give, &file, &trouble);
     if (s == STATUS_OK) {
         require(clay_is_valid(&c) && clay_digest(&c) == facts.digest && clay_brick_count(&c) == facts.bricks);
-        const bool first_version = byte_order_get_u32(&file[8]) == 1;
         const byte_string again = file_of(c, facts);
-        require((first_version ? as_version_1(again, facts.cursor) : again) == file);
+        require(bricks_of(again) == bricks_of(file));
+        require(version_of(file) < 3 || std::equal(again.begin(), again.begin() + HEADER, file.begin()));
     } else {
         require(clay_digest(&c) == digest && trouble.offset <= file.size() && trouble.expected[0] != '\0');
     }
@@ -153,8 +189,9 @@ void make_and_spoil(const uint8_t *bytes, size_t size)
                                     .digest = clay_digest(&c)};
     byte_string file = file_of(c, facts);
     clay_finish(&c);
-    if (bytes[0] & 8)
-        file = as_version_1(file, facts.cursor);
+    const uint32_t version = bytes[0] >> 4 & 3; /* 0: as it was written */
+    if (version > 0 && file.size() > HEADER)
+        file = as_version(version, file, facts.cursor);
     require(read_file(file) == STATUS_OK);
     spoil(file, bytes + 1, 1 + (bytes[0] >> 1) % CHANGES_MAX);
     if (bytes[0] & 1)

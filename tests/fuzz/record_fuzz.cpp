@@ -3,7 +3,8 @@
  * Goal    No bytes make the readers of records read outside them or change clay in part; what they let pass takes the
  *         clay where a plain reading of the same bytes says, and back, and the same change makes the same bytes.
  * Method  The first byte chooses: the rest are a record; a record whose checksums are put right; or corners of a
- *         stroke, whose record must pass, and is then changed in up to four places, its checksums perhaps put right.
+ *         stroke, whose record, packed or not, must pass, and is then changed in up to four places, its checksums
+ *         perhaps put right.
  *         The plain reading turns bits over corner by corner, in clay of its own.
  */
 #include <algorithm>
@@ -37,7 +38,10 @@ void put_checksums_right(byte_string &b)
 {
     if (b.size() < HEADER)
         return;
-    byte_order_put_u64(&b[120], b.size() - HEADER);
+    const uint64_t stored = b.size() - HEADER;
+    byte_order_put_u64(&b[136], byte_order_get_u32(&b[8]) == 1 ? 0 : stored);
+    if (byte_order_get_u64(&b[120]) < stored) /* more: they are said to be packed */
+        byte_order_put_u64(&b[120], stored);
     byte_order_put_u64(&b[144], digest_bytes(b.data() + HEADER, b.size() - HEADER, byte_order_get_u64(&b[16])));
     byte_order_put_u64(&b[152], digest_bytes(b.data(), 152, 0));
 }
@@ -154,15 +158,16 @@ bool read_record(clay &c, const byte_string &b)
     record r = {};
     preamble_trouble trouble = {UINT64_MAX, nullptr};
     status s = record_read(&r, head.data(), head.size(), &trouble);
-    if (s == STATUS_OK && r.bytes > b.size() - HEADER)
+    if (s == STATUS_OK && r.stored > b.size() - HEADER)
         return false; /* the ring looks at that */
     if (s == STATUS_OK) {
-        const byte_string bricks(b.begin() + HEADER, b.begin() + HEADER + static_cast<std::ptrdiff_t>(r.bytes));
-        s = record_check(&r, bricks.data(), &trouble);
+        const byte_string stored(b.begin() + HEADER, b.begin() + HEADER + static_cast<std::ptrdiff_t>(r.stored));
+        byte_string bricks(static_cast<size_t>(r.bytes));
+        s = record_check(&r, stored.data(), bricks.data(), &trouble);
         if (s == STATUS_OK && r.bricks > 0)
             forth_and_back(c, bricks, r.bricks);
     }
-    require(s == STATUS_OK || (trouble.expected != nullptr && trouble.offset <= b.size()));
+    require(s == STATUS_OK || (trouble.expected != nullptr && trouble.offset <= std::max<size_t>(b.size(), r.bytes)));
     return s == STATUS_OK;
 }
 
@@ -195,9 +200,12 @@ void make_and_spoil(clay &c, const uint8_t *bytes, size_t size)
         return;
     require(go(c, bricks, r.digest_after, r.digest_before) == STATUS_OK);
     clay_change_end(&c);
-    r.bytes = bricks.size();
+    r.bytes = r.stored = bricks.size();
     byte_string file(HEADER);
     file.insert(file.end(), bricks.begin(), bricks.end());
+    if (bytes[0] & 64)
+        record_pack(&r, &file[HEADER], bricks.data());
+    file.resize(HEADER + r.stored);
     record_seal(&r, file.data());
     require(read_record(c, file));
     spoil(file, bytes + 1, 1 + (bytes[0] >> 1) % CHANGES_MAX);

@@ -142,9 +142,9 @@ void seal_record(byte_string &b, size_t at)
     if (at + RECORD_HEADER_BYTES > b.size())
         return;
     uint8_t *h = &b[at];
-    const uint64_t bytes = byte_order_get_u64(h + 120);
-    if (bytes <= b.size() - at - RECORD_HEADER_BYTES)
-        byte_order_put_u64(h + 144, digest_bytes(h + RECORD_HEADER_BYTES, static_cast<size_t>(bytes),
+    const uint64_t stored = byte_order_get_u64(h + 136);
+    if (stored <= b.size() - at - RECORD_HEADER_BYTES)
+        byte_order_put_u64(h + 144, digest_bytes(h + RECORD_HEADER_BYTES, static_cast<size_t>(stored),
                                                  byte_order_get_u64(h + 16)));
     byte_order_put_u64(h + 152, digest_bytes(h, 152, 0));
 }
@@ -154,8 +154,8 @@ void seal_field(byte_string &b)
     if (b.size() < CHECKPOINT_HEADER_BYTES)
         return;
     byte_order_put_u64(&b[88], digest_bytes(b.data(), 88, 0));
-    for (size_t at = CHECKPOINT_HEADER_BYTES; at + 88 <= b.size();) {
-        const uint64_t vouched = 80 + uint64_t{8} * byte_order_get_u32(&b[at + 12]);
+    for (size_t at = CHECKPOINT_HEADER_BYTES; at + 8 <= b.size();) {
+        const uint64_t vouched = 8 + uint64_t{byte_order_get_u32(&b[at + 4])};
         if (vouched + 8 > b.size() - at)
             return;
         byte_order_put_u64(&b[at + vouched], digest_bytes(&b[at], vouched, 0));

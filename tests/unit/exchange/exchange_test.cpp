@@ -291,7 +291,7 @@ TEST(exchange, info_tells_the_facts)
     bucket b = native_file_of(*s);
     const exchange_outcome outcome = exchange_info(bucket_get, &b);
     ASSERT_EQ(outcome.state, STATUS_OK) << outcome.text;
-    EXPECT_EQ(line_of(outcome.text, "version"), "version 2");
+    EXPECT_EQ(line_of(outcome.text, "version"), "version 3");
     EXPECT_EQ(line_of(outcome.text, "step"), "step    0.25 mm");
     EXPECT_EQ(line_of(outcome.text, "corners"), "corners " + std::to_string(stored));
     /* Stored where the distance from (1, 0, -2) is under 7.5. */

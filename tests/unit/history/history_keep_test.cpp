@@ -390,7 +390,7 @@ TEST(history_keep, damaged_undo_file_is_told_once_and_ends_history_there)
         if (missing)
             m.files.erase(name);
         else
-            m.files.at(name)[RECORD_HEADER_BYTES + 85] ^= 0x10;
+            m.files.at(name)[RECORD_HEADER_BYTES + 20] ^= 0x10;
         const auto damaged = missing ? std::vector<uint8_t>() : m.files.at(name);
         ASSERT_EQ(p.undo(), STATUS_OK);
         EXPECT_EQ(p.undo(), STATUS_CORRUPT);
@@ -423,7 +423,7 @@ TEST(history_keep, damaged_redo_file_ends_history_on_that_side)
     piece_steps_up_to(p, digests, 1, 6);
     for (int n = 0; n < 4; n++)
         ASSERT_EQ(p.undo(), STATUS_OK);
-    m.files.at(piece_steps_file_of(p, 4))[RECORD_HEADER_BYTES + 85] ^= 0x10;
+    m.files.at(piece_steps_file_of(p, 4))[RECORD_HEADER_BYTES + 20] ^= 0x10;
     ASSERT_EQ(p.redo(), STATUS_OK);
     EXPECT_EQ(p.redo(), STATUS_CORRUPT);
     EXPECT_EQ(p.redo(), STATUS_HISTORY_ENDS);

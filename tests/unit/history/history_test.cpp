@@ -306,7 +306,7 @@ TEST(history, large_stroke_takes_as_many_files_as_it_needs)
     const uint64_t after = p.digest();
     EXPECT_EQ(p.h.sequence, 61u) << "a quarter of a file at most: one such brick each";
     EXPECT_EQ(p.h.tree.count, 2u);
-    EXPECT_EQ(piece_steps_undo_files(m), 1u + 60 / 4) << "four of two blocks a file";
+    EXPECT_EQ(piece_steps_undo_files(m), 1u + 60 / 4) << "four of two blocks a file: chance cannot be packed";
     for (const auto &[name, bytes] : m.files)
         EXPECT_EQ(bytes.size(), PIECE_STEPS_FILE_BYTES) << name;
     piece_steps_reopen(p, m);

@@ -76,12 +76,15 @@ inline size_t piece_steps_undo_files(const memory_store &m)
 }
 
 /* Every corner of so many bricks: some 4 KiB of record each. */
-inline piece_stroke piece_steps_large(int bricks, uint32_t rgba)
+inline piece_stroke piece_steps_large(int bricks, uint32_t seed)
 {
     piece_stroke s;
+    seeded chance = {seed};
     for (int b = 0; b < bricks; b++)
         for (int n = 0; n < BRICK_CORNERS; n++)
-            s.push_back({{8 * b + n / 64, n / 8 % 8, n % 8}, 1, rgba + static_cast<uint32_t>(n)});
+            s.push_back({{8 * b + n / 64, n / 8 % 8, n % 8},
+                         static_cast<float>(seeded_real(chance, 0.5, 2.5)),
+                         static_cast<uint32_t>(seeded_bits(chance))});
     return s;
 }
 

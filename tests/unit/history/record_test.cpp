@@ -50,7 +50,7 @@ byte_string laid()
 {
     byte_string b(HEADER + 80 + 8 + 80 + 16);
     std::memcpy(b.data(), "glring\r\n", 8);
-    lay32(b, 8, 1);
+    lay32(b, 8, 2);
     lay32(b, 12, 160);
     lay64(b, 16, 9);
     lay64(b, 24, 4);
@@ -68,6 +68,7 @@ byte_string laid()
     lay64(b, 112, 8);
     lay64(b, 120, b.size() - HEADER);
     lay32(b, 128, 2);
+    lay64(b, 136, b.size() - HEADER);
     const size_t first = HEADER, second = HEADER + 88;
     lay32(b, first + 12, 1);
     lay64(b, first + 16, 0b10);
@@ -98,6 +99,7 @@ constexpr record facts = {.sequence = 9,
                           .step_mm = 0.125,
                           .kept = 8,
                           .bytes = 184,
+                          .stored = 184,
                           .check = 0,
                           .seal = 0};
 
@@ -161,10 +163,11 @@ status take(const byte_string &b, preamble_trouble *why)
     const status s = read(b, &r, why);
     if (s != STATUS_OK)
         return s;
-    if (r.bytes != b.size() - HEADER)
+    if (r.stored != b.size() - HEADER)
         return STATUS_CORRUPT;
-    const byte_string bricks(b.begin() + HEADER, b.end());
-    return record_check(&r, bricks.data(), why);
+    const byte_string stored(b.begin() + HEADER, b.end());
+    byte_string bricks(static_cast<size_t>(r.bytes));
+    return record_check(&r, stored.data(), bricks.data(), why);
 }
 
 /* --- what the bytes say --- */
@@ -207,9 +210,11 @@ TEST(record, every_field_has_its_place_and_no_other)
     lay64(expected, 104, 0xc000000000000000);
     EXPECT_EQ(written(r), sealed(expected));
     r = facts;
-    r.bytes = 88; /* the first brick alone is vouched for */
+    r.bytes = 89;
+    r.stored = 88; /* the first 88 alone are vouched for */
     const byte_string shorter = written(r);
-    EXPECT_EQ(byte_order_get_u64(&shorter[120]), 88u);
+    EXPECT_EQ(byte_order_get_u64(&shorter[120]), 89u);
+    EXPECT_EQ(byte_order_get_u64(&shorter[136]), 88u);
     EXPECT_EQ(byte_order_get_u64(&shorter[144]), digest_bytes(good.data() + HEADER, 88, 9));
 }
 
@@ -235,9 +240,81 @@ TEST(record, reading_gives_every_field_back)
     EXPECT_EQ(r.step_mm, facts.step_mm);
     EXPECT_EQ(r.kept, facts.kept);
     EXPECT_EQ(r.bytes, facts.bytes);
+    EXPECT_EQ(r.stored, facts.stored);
     EXPECT_EQ(r.check, byte_order_get_u64(&b[144]));
     EXPECT_EQ(r.seal, byte_order_get_u64(&b[152]));
-    EXPECT_EQ(record_check(&r, b.data() + HEADER, &why), STATUS_OK);
+    byte_string bricks(b.size() - HEADER);
+    EXPECT_EQ(record_check(&r, b.data() + HEADER, bricks.data(), &why), STATUS_OK);
+    EXPECT_EQ(bricks, byte_string(b.begin() + HEADER, b.end()));
+}
+
+TEST(record, version_1_is_still_read)
+{
+    byte_string b = laid();
+    preamble_trouble why;
+    record r = {};
+    lay32(b, 8, 1);
+    lay64(b, 136, 0);
+    b = sealed(b);
+    ASSERT_EQ(read(b, &r, &why), STATUS_OK) << why.expected;
+    EXPECT_EQ(r.stored, 184u) << "it knew no packing";
+    EXPECT_EQ(take(b, &why), STATUS_OK) << why.expected;
+    lay64(b, 136, 184);
+    EXPECT_EQ(take(sealed(b), &why), STATUS_CORRUPT);
+    EXPECT_EQ(why.offset, 132u);
+}
+
+/* The laid record as the room would write it. */
+byte_string packed()
+{
+    const byte_string plain = laid();
+    record r = facts;
+    byte_string b(plain.size());
+    record_pack(&r, &b[HEADER], &plain[HEADER]);
+    EXPECT_LT(r.stored, r.bytes) << "so much of nothing can be packed";
+    b.resize(HEADER + r.stored);
+    record_seal(&r, b.data());
+    return b;
+}
+
+TEST(record, packed_bricks_come_back)
+{
+    const byte_string b = packed(), plain = laid();
+    record r = {};
+    preamble_trouble why;
+    ASSERT_EQ(read(b, &r, &why), STATUS_OK);
+    EXPECT_EQ(r.bytes, 184u);
+    EXPECT_EQ(r.stored, b.size() - HEADER);
+    byte_string bricks(184);
+    EXPECT_EQ(record_check(&r, b.data() + HEADER, bricks.data(), &why), STATUS_OK);
+    EXPECT_EQ(bricks, byte_string(plain.begin() + HEADER, plain.end()));
+    ASSERT_EQ(record_unpack(&r, b.data() + HEADER, bricks.data()), STATUS_OK);
+    EXPECT_EQ(bricks, byte_string(plain.begin() + HEADER, plain.end()));
+}
+
+TEST(record, packed_bytes_that_lie_are_refused)
+{
+    preamble_trouble why;
+    const byte_string good = packed();
+    ASSERT_EQ(take(good, &why), STATUS_OK) << why.expected;
+    for (size_t bit = HEADER * 8; bit < good.size() * 8; bit++) {
+        byte_string b = good;
+        b[bit / 8] ^= static_cast<uint8_t>(1u << bit % 8);
+        EXPECT_EQ(take(b, &why), STATUS_CORRUPT) << bit;
+        /* Under a sound checksum: whatever it unpacks to, it is bricks or refused, and no byte goes beyond them. */
+        const status s = take(sealed(b), &why);
+        EXPECT_TRUE(s == STATUS_CORRUPT || s == STATUS_OK) << bit;
+    }
+    for (const uint64_t claim : {176u, 183u, 185u, 192u, 8u * 1024}) {
+        byte_string b = good;
+        lay64(b, 120, claim);
+        EXPECT_EQ(take(sealed(b), &why), STATUS_CORRUPT) << claim;
+    }
+    byte_string cut = good;
+    cut.pop_back();
+    lay64(cut, 136, cut.size() - HEADER);
+    EXPECT_EQ(take(sealed(cut), &why), STATUS_CORRUPT);
+    EXPECT_NE(std::string(why.expected).find("unpack"), std::string::npos) << why.expected;
 }
 
 TEST(record, bricks_are_those_of_the_table)
@@ -398,7 +475,7 @@ TEST(record, forged_headers_are_refused)
         {"stroke that began at itself", 48, 8, 7, 40, "after the one it began at"},
         {"a move that began somewhere", 40, 8, 0, 40, "after the one it began at"},
         {"no bricks in a stroke", 56, 4, 0, 56, "bricks in a stroke"},
-        {"a mark of later", 60, 4, 3, 60, "mark that version 1"},
+        {"a mark of later", 60, 4, 3, 60, "no mark"},
         {"cursor beyond the tip", 64, 8, 8, 64, "cursor"},
         {"cursor not at the stroke", 64, 8, 6, 64, "cursor"},
         {"tip beyond the stroke", 72, 8, 8, 64, "cursor"},
@@ -414,7 +491,9 @@ TEST(record, forged_headers_are_refused)
         {"bytes that wrap round", 120, 8, UINT64_MAX - 1000, 120, "512 corners"},
         {"more bricks than there can be bytes for", 56, 4, UINT32_MAX, 120, "512 corners"},
         {"not zero, first", 132, 4, 1, 132, "zeros"},
-        {"not zero, last", 140, 4, 0x80000000, 132, "zeros"},
+        {"nothing follows", 136, 8, 0, 136, "fewer where these are packed"},
+        {"more follows than there are bricks", 136, 8, 185, 136, "fewer where these are packed"},
+        {"more follows than there can be", 136, 8, UINT64_MAX, 136, "fewer where these are packed"},
     };
     for (const forgery &f : all)
         expect_refused(laid(), f);
@@ -425,7 +504,7 @@ byte_string laid_move()
 {
     byte_string b = laid();
     b.resize(HEADER);
-    for (const size_t at : {size_t{40}, size_t{48}, size_t{120}})
+    for (const size_t at : {size_t{40}, size_t{48}, size_t{120}, size_t{136}})
         lay64(b, at, 0);
     lay32(b, 56, 0);
     lay32(b, 128, 0);
@@ -444,7 +523,7 @@ TEST(record, moves_have_no_stroke_no_bricks_and_are_whole)
     EXPECT_EQ(r.cursor, 3u);
     EXPECT_EQ(r.tip, 7u);
     const std::vector<forgery> all = {
-        {"a move that is not whole", 60, 4, 0, 60, "mark that version 1"},
+        {"a move that is not whole", 60, 4, 0, 60, "no mark"},
         {"a move with bricks", 56, 4, 1, 56, "none in a move"},
         {"a move that is a part", 128, 4, 1, 56, "none in a move"},
         {"a move with bytes", 120, 8, 88, 120, "512 corners"},
@@ -485,6 +564,7 @@ TEST(record, forged_bricks_are_refused)
     preamble_trouble why;
     more.resize(HEADER + 3 * 88);
     lay64(more, 120, 3 * 88);
+    lay64(more, 136, 3 * 88);
     lay32(more, 56, 3);
     EXPECT_EQ(take(sealed(more), &why), STATUS_CORRUPT);
     EXPECT_EQ(why.offset, 184u);
@@ -508,6 +588,8 @@ TEST(record, highest_counts_are_a_header_still)
     record r = {};
     lay32(b, 56, UINT32_MAX);
     lay64(b, 120, uint64_t{UINT32_MAX} * (80 + 512 * 8));
+    EXPECT_EQ(read(sealed(b), &r, &why), STATUS_CORRUPT) << "that much may not be packed";
+    lay64(b, 136, uint64_t{UINT32_MAX} * (80 + 512 * 8));
     ASSERT_EQ(read(sealed(b), &r, &why), STATUS_OK) << "reading it allocates nothing: who reads on looks at the file";
     EXPECT_EQ(r.bytes, uint64_t{UINT32_MAX} * (80 + 512 * 8));
 }
@@ -527,19 +609,21 @@ TEST(record, later_versions_are_told_from_damage)
 {
     preamble_trouble why;
     byte_string b = laid();
-    lay32(b, 8, 2);
+    lay32(b, 8, 3);
     EXPECT_EQ(take(b, &why), STATUS_CORRUPT) << "its checksum does not hold";
     EXPECT_EQ(take(sealed(b), &why), STATUS_NEWER);
     EXPECT_EQ(why.offset, 8u);
     byte_string longer = laid(); /* one that has more to say */
     longer.insert(longer.begin() + 152, 40, uint8_t{1});
-    lay32(longer, 8, 2);
+    lay32(longer, 8, 3);
     lay32(longer, 12, 200);
     lay64(longer, 192, digest_bytes(longer.data(), 192, 0));
     EXPECT_EQ(take(longer, &why), STATUS_NEWER);
-    lay32(longer, 8, 1);
-    lay64(longer, 192, digest_bytes(longer.data(), 192, 0));
-    EXPECT_EQ(take(longer, &why), STATUS_CORRUPT) << "version 1 has 160";
+    for (const uint32_t version : {1u, 2u}) {
+        lay32(longer, 8, version);
+        lay64(longer, 192, digest_bytes(longer.data(), 192, 0));
+        EXPECT_EQ(take(longer, &why), STATUS_CORRUPT) << "versions 1 and 2 have 160";
+    }
     lay32(b, 8, 0);
     EXPECT_EQ(take(sealed(b), &why), STATUS_CORRUPT) << "there never was a version 0";
 }

@@ -122,4 +122,50 @@ TEST(recovery_damage, a_file_whose_beginning_is_unreadable_is_kept_aside)
     EXPECT_EQ(p.undo(), STATUS_HISTORY_ENDS) << "stroke 3 is not there any more";
 }
 
+/* Three strokes, of which the third is written twice, because the sync of its first file fails, and a checkpoint. The
+   failing call is the nth; false: that was not it. */
+bool written_twice(memory_store &m, std::vector<uint64_t> &digests, uint64_t nth)
+{
+    piece p(m.port(), recovery_scene_ring(100));
+    digests = {0};
+    for (int n = 1; n < 4; n++) {
+        EXPECT_EQ(p.stretch(piece_stroke_numbered(n), true), STATUS_OK);
+        m.fail_at = n == 3 ? m.calls + nth : 0;
+        m.fail_having_done = true;
+        EXPECT_EQ(p.keep(), STATUS_OK);
+        digests.push_back(p.digest());
+    }
+    m.fail_at = 0;
+    EXPECT_EQ(p.field(), STATUS_OK);
+    record r[2];
+    return p.h.ring.count > 3 && ring_read_header(&p.h.ring, 2, 0, &r[0]) == STATUS_OK &&
+           ring_read_header(&p.h.ring, 3, 0, &r[1]) == STATUS_OK && r[0].sequence == r[1].sequence;
+}
+
+TEST(recovery_damage, what_was_written_twice_is_there_while_one_of_the_two_is)
+{
+    memory_store m;
+    std::vector<uint64_t> digests;
+    uint64_t nth = 1;
+    while (nth < 10 && !written_twice(m = memory_store(), digests, nth))
+        nth++;
+    ASSERT_LT(nth, 10u);
+    m.files.erase(ring_name_of(3).text);
+    for (int round = 0; round < 3; round++) {
+        piece p(m.port(), recovery_scene_ring(100));
+        ASSERT_EQ(p.opened, STATUS_OK);
+        ASSERT_EQ(p.digest(), digests[round < 2 ? 3 : 0]) << p.finding.text;
+        if (round == 0) { /* what follows on it follows on the checkpoint, which knows of the second */
+            ASSERT_EQ(p.stroke(piece_stroke_numbered(9)), STATUS_OK);
+            ASSERT_EQ(p.undo(), STATUS_OK);
+        } else if (round == 1) {
+            for (size_t n = 3; n-- > 0;) {
+                ASSERT_EQ(p.undo(), STATUS_OK);
+                ASSERT_EQ(p.digest(), digests[n]);
+            }
+        }
+        ASSERT_EQ(p.keep(), STATUS_OK);
+    }
+}
+
 } // namespace

@@ -51,7 +51,7 @@ struct recovery_scene {
 };
 
 /* Places in a record. */
-enum { RECOVERY_SCENE_IN_HEADER = 100, RECOVERY_SCENE_IN_BRICKS = RECORD_HEADER_BYTES + 82 };
+enum { RECOVERY_SCENE_IN_HEADER = 100, RECOVERY_SCENE_IN_BRICKS = RECORD_HEADER_BYTES + 20 };
 
 inline memory_store recovery_scene_after(const memory_store &m, const std::function<void(memory_store &)> &done)
 {

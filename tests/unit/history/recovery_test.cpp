@@ -5,7 +5,9 @@
  *         by hand. Damage of every kind is in recovery_damage_test.cpp, power cuts in tests/crash. */
 #include "history/recovery.h"
 
+#include "clay/digest.h"
 #include "history/byte_order.h"
+#include "history/packing.h"
 #include "tests/unit/history/recovery_scene.h"
 
 #include <gtest/gtest.h>
@@ -244,17 +246,25 @@ TEST(recovery, field_of_version_1_is_a_base)
 {
     memory_store m;
     uint64_t digest = 0;
+    std::vector<uint8_t> f, bricks;
     {
         piece p(m.port(), recovery_scene_ring(100));
-        ASSERT_EQ(p.stroke(piece_stroke_numbered(1)), STATUS_OK);
+        ASSERT_EQ(p.stroke({{{1, 2, 3}, 1.5f, 0x01020304}}), STATUS_OK);
         ASSERT_EQ(p.field(), STATUS_OK);
         digest = p.digest();
+        f = m.files.at("field");
     }
-    std::vector<uint8_t> f = m.files.at("field");
-    f.erase(f.begin() + 56, f.begin() + 88);
+    /* One block of one brick; it had no blocks, a shorter header, and a checksum a brick. */
+    bricks.resize(byte_order_get_u32(&f[96]));
+    ASSERT_EQ(packing_unpack(bricks.data(), bricks.size(), &f[104], byte_order_get_u32(&f[100])), STATUS_OK);
+    ASSERT_EQ(bricks.size(), 88u);
+    f.resize(64);
     byte_order_put_u64(&f[24], 31);
     const preamble p1 = {"glaise\r\n", 1, 64};
     preamble_seal(&p1, f.data());
+    bricks.resize(96);
+    byte_order_put_u64(&bricks[88], digest_bytes(bricks.data(), 88, 0));
+    f.insert(f.end(), bricks.begin(), bricks.end());
     m.files.clear();
     m.files["field"] = f;
     piece p(m.port(), recovery_scene_ring(100));
@@ -267,8 +277,6 @@ TEST(recovery, field_of_version_1_is_a_base)
     piece q(m.port(), recovery_scene_ring(100));
     EXPECT_EQ(q.digest(), p.digest());
 }
-
-/* --- 4: the tail --- */
 
 TEST(recovery, torn_last_record_is_as_if_it_had_not_been_put)
 {
@@ -307,9 +315,9 @@ TEST(recovery, records_up_to_the_last_whole_one_count)
         piece p(m.port(), recovery_scene_ring(100));
         ASSERT_EQ(p.stroke(piece_stroke_numbered(1)), STATUS_OK);
         before = p.digest();
-        ASSERT_EQ(p.stroke(full), STATUS_OK); /* three records of two blocks each */
+        ASSERT_EQ(p.stroke(full), STATUS_OK); /* three records of a block each */
         ASSERT_EQ(p.h.sequence, 4u);
-        m.files.at(ring_name_of(p.h.ring.current).text)[2 * 8192 + RECOVERY_SCENE_IN_BRICKS] ^= 4; /* the third */
+        m.files.at(ring_name_of(p.h.ring.current).text)[2 * 4096 + RECOVERY_SCENE_IN_BRICKS] ^= 4; /* the third */
     }
     piece p(m.port(), recovery_scene_ring(100));
     EXPECT_STREQ(p.finding.text, "");

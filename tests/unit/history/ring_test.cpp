@@ -62,6 +62,7 @@ struct made {
         r.dab = 1;
         r.step_mm = 0.5;
         r.bytes = record_put_brick(&bytes[RECORD_HEADER_BYTES], {1, 2, 3}, nullptr, &page, LANES_PLAIN);
+        r.stored = r.bytes;
         bytes.resize(RECORD_HEADER_BYTES + r.bytes);
     }
 };
@@ -344,10 +345,10 @@ TEST(ring, record_that_reaches_beyond_its_file_is_refused)
     /* Sound, and so large that nobody could hold it: 2^32 - 1 bricks. */
     made vast(1);
     vast.r.bricks = UINT32_MAX;
-    vast.r.bytes = 88;
+    vast.r.bytes = vast.r.stored = 88;
     record_seal(&vast.r, vast.bytes.data());
     for (size_t n = 0; n < 8; n++)
-        vast.bytes[120 + n] = static_cast<uint8_t>(uint64_t{UINT32_MAX} * 88 >> 8 * n);
+        vast.bytes[120 + n] = vast.bytes[136 + n] = static_cast<uint8_t>(uint64_t{UINT32_MAX} * 88 >> 8 * n);
     const preamble p = {"glring\r\n", RECORD_VERSION, RECORD_HEADER_BYTES};
     preamble_seal(&p, vast.bytes.data());
     std::copy(vast.bytes.begin(), vast.bytes.end(), f.begin());

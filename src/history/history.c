@@ -181,10 +181,13 @@ static void put(history *h, const layout *l)
     h->digest = l->digest;
 }
 
+/* Checkpoints should not cost more writing than strokes do: a large piece waits for more of them, but not for ever,
+   because no undo-file can be written anew before (H3), and opening goes over all of them. */
 static void checkpoint_when_due(history *h)
 {
-    const uint64_t strokes = h->settings.strokes / 4, bytes = h->settings.budget_bytes / 8;
-    if (h->strokes_since > strokes || h->put_since > bytes)
+    const uint64_t strokes = h->settings.strokes, bytes = h->settings.budget_bytes / 8;
+    const bool pays = h->put_since > h->field.bytes / 2;
+    if ((pays && h->strokes_since > strokes / 4) || h->strokes_since > strokes || h->put_since > bytes)
         h->wants_field = true;
 }
 

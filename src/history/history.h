@@ -62,7 +62,7 @@ enum { HISTORY_STROKES_DEFAULT = 200, HISTORY_STROKES_MAX = 9999, HISTORY_SLICE_
 #define HISTORY_FIELD_BEFORE_NAME "field.before"
 
 typedef struct history_settings {
-    uint32_t strokes;      /* that can be undone, at most; 1 .. HISTORY_STROKES_MAX */
+    uint32_t strokes;      /* that can be undone; more until a checkpoint is there; 1 .. HISTORY_STROKES_MAX */
     uint64_t file_bytes;   /* of an undo-file; a multiple of 4 KiB, RING_FILE_BYTES_MIN at the least */
     uint64_t budget_bytes; /* of all undo-files; more only where no checkpoint could be made in time */
     uint64_t held_bytes;
@@ -87,6 +87,7 @@ typedef struct history_held {
 typedef struct history_base {
     bool there;
     uint64_t sequence, cursor;
+    uint64_t bytes;
 } history_base;
 
 typedef enum history_medium {

@@ -56,10 +56,8 @@ static bool forget_one(history *h)
     const uint64_t spare = h->tree.count > 1 ? tree_spare(&h->tree) : 0;
     if (spare == 0)
         return false;
-    if (!may_go(h, spare)) {
-        h->wants_field = true;
+    if (!may_go(h, spare))
         return false;
-    }
     tree_forget(&h->tree, spare);
     return true;
 }
@@ -101,6 +99,7 @@ static status file_take(history *h, uint32_t *file_out)
     while (s == STATUS_NO_SPACE && *file_out == RING_NONE && forget_one(h))
         if ((*file_out = free_file(h)) != RING_NONE)
             s = STATUS_OK;
+    h->wants_field = h->wants_field || s == STATUS_NO_SPACE; /* what may not go now will then */
     if (s == STATUS_NO_SPACE && !within_budget)
         s = ring_make(&h->ring, h->settings.file_bytes, file_out);
     return s;
@@ -242,11 +241,11 @@ static status field_place(history *h)
         h->before.there = false;
         s = store->rename(store->self, HISTORY_FIELD_NAME, HISTORY_FIELD_BEFORE_NAME);
         if (s == STATUS_OK)
-            h->before = (history_base){true, h->field.sequence, h->field.cursor};
+            h->before = (history_base){true, h->field.sequence, h->field.cursor, h->field.bytes};
     }
     if (s != STATUS_OK)
         return s;
-    h->field = (history_base){false, h->writing.sequence, h->writing.cursor};
+    h->field = (history_base){false, h->writing.sequence, h->writing.cursor, h->written};
     s = store->rename(store->self, FIELD_TEMPORARY, HISTORY_FIELD_NAME);
     h->field.there = s == STATUS_OK;
     return s;

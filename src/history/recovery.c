@@ -190,7 +190,7 @@ static status read_field(recovery *r, const char *name, history_base *base_out, 
         return STATUS_OK;
     if (s != STATUS_OK)
         return s;
-    *base_out = (history_base){true, facts.sequence, facts.cursor};
+    *base_out = (history_base){true, facts.sequence, facts.cursor, size};
     r->base = facts;
     *read_out = true;
     return STATUS_OK;
@@ -208,7 +208,7 @@ static status look_at_field(recovery *r, const char *name, history_base *base_ou
         tell(r, WEIGHT_NEWER, name, " was written by a newer version of this program");
     *base_out = (history_base){.there = s == STATUS_OK};
     if (s == STATUS_OK)
-        *base_out = (history_base){true, facts.sequence, facts.cursor};
+        *base_out = (history_base){true, facts.sequence, facts.cursor, 0};
     return s == STATUS_NEWER ? s : STATUS_OK;
 }
 

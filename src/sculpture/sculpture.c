@@ -2,6 +2,7 @@
 #include "sculpture/sculpture.h"
 
 #include "clay/digest.h"
+#include "history/stored_file.h"
 #include "sculpture/keeping.h"
 
 #include <string.h>
@@ -296,3 +297,9 @@ uint64_t sculpture_digest_of(double step_mm, uint64_t digest)
 }
 
 uint64_t sculpture_digest(const sculpture *s) { return sculpture_digest_of(s->step_mm, clay_digest(&s->clay)); }
+
+status sculpture_set_aside(const byte_store *store, const char *file)
+{
+    const stored_file f = {store, file};
+    return stored_file_set_aside(&f);
+}

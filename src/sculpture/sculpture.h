@@ -127,6 +127,8 @@ STATUS_CHECKED status sculpture_clear(sculpture *s);
 
 /* Looks through a store without changing it (history/check.h). */
 STATUS_CHECKED status sculpture_check(const byte_store *store, check_teller tell, void *self, check_facts *facts_out);
+/* Renames a file of a store that is not open, so that opening does not see it (history/stored_file.h). */
+STATUS_CHECKED status sculpture_set_aside(const byte_store *store, const char *file);
 
 /* Native file (still.h writes it): replaces the clay whole as one stroke, or not at all; a step other than the
    sculpture's is STATUS_BAD_PARAMETER unless the sculpture is empty and keeps no history (then it takes the step). */

@@ -2,8 +2,10 @@
 #include "station/opening.h"
 
 #include "station/errand.h"
+#include "station/rehearsal.h"
 
 #include <algorithm>
+#include <memory>
 
 struct opening {
     status outcome = STATUS_OK;
@@ -70,10 +72,21 @@ double field_bytes(const byte_store &port)
 status opening_here(sculpture *piece, const byte_store &port, const history_settings &settings, double step_mm,
                     const std::function<void(double)> &told, history_finding *finding_out)
 {
+    history_finding set_aside;
+    const auto rehearse = [&](const byte_store &other) {
+        auto unseen = std::make_unique<sculpture>();
+        history_finding finding;
+        const status s = sculpture_open(unseen.get(), &other, CAPACITY_BRICKS, &settings, step_mm, &finding);
+        (void)s; /* that it comes to an end is enough */
+    };
+    rehearsal_begin(port, rehearse, &set_aside);
     metered m = {port, told, field_bytes(port)};
     const byte_store through = {&m,        port_read,   port_write,  port_size, port_truncate,
                                 port_sync, port_rename, port_remove, port_list};
     const status outcome = sculpture_open(piece, &through, CAPACITY_BRICKS, &settings, step_mm, finding_out);
+    rehearsal_end(port);
+    if (set_aside.text[0] != '\0')
+        *finding_out = set_aside;
     if (outcome == STATUS_OK)
         piece->history.store = port; /* the meter will be gone */
     return outcome;

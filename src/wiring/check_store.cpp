@@ -2,7 +2,7 @@
 #include "wiring/check_store.h"
 
 #include "station/opening.h"
-#include "wiring/overlay_store.h"
+#include "station/overlay_store.h"
 #include "wiring/store.h"
 
 #include <cinttypes>

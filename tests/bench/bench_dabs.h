@@ -34,6 +34,6 @@ std::vector<bench_dabs_row> bench_dabs_rows(double radius);
 void bench_dabs_print_head(const bench_scene &s);
 /* Measures the row on the object as it was and prints it. */
 void bench_dabs_measure(bench_scene &s, const bench_dabs_row &row, const bench_dabs_setting &set,
-                        bench_clock_probe &probe, bench_record &record);
+                        bench_clock_probe &probe, bench_record &figures);
 
 #endif

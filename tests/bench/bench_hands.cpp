@@ -37,7 +37,7 @@ one_turn turn_of(bench_scene &s, const std::vector<bench_object_dab> &dabs, cons
 
 } // namespace
 
-void bench_hands_measure(bench_scene &s, bool quick, bench_record &record)
+void bench_hands_measure(bench_scene &s, bool quick, bench_record &figures)
 {
     crew_of_threads *two = crew_of_threads_open(2);
     bench_rig_demand(two != nullptr, "no second thread");
@@ -59,7 +59,7 @@ void bench_hands_measure(bench_scene &s, bool quick, bench_record &record)
         }
         std::printf("%3.0f %9.1f %9.1f %6.2f   %zu/%zu\n", radii[n], bench_clock_median(one_us),
                     bench_clock_median(two_us), bench_clock_median(ratio), tried - ratio.size(), tried);
-        record.add("hands", {{"object", s.name}},
+        figures.add("hands", {{"object", s.name}},
                    {{"radius", radii[n]}, {"one_us", bench_clock_median(one_us)},
                     {"two_us", bench_clock_median(two_us)}, {"ratio", bench_clock_median(ratio)}});
     }

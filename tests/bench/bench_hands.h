@@ -12,6 +12,6 @@
 #include "bench_scene.h"
 
 /* No probe may hold the calling thread to one core. */
-void bench_hands_measure(bench_scene &s, bool quick, bench_record &record);
+void bench_hands_measure(bench_scene &s, bool quick, bench_record &figures);
 
 #endif

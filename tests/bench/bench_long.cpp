@@ -115,14 +115,14 @@ struct row {
     std::vector<double> dabs_s;
 };
 
-void print(const row &r, const std::string &object, bench_record &record)
+void print(const row &r, const std::string &object, bench_record &figures)
 {
     const double median = bench_clock_median(r.dabs_s), longest = *std::max_element(r.dabs_s.begin(), r.dabs_s.end());
     const double p99 = bench_clock_quantile(r.dabs_s, 0.99);
     std::printf("%-14s %8.2f %8.1f %8.2f %8.2f   %8zu %8.0f %8.0f %8.0f\n", r.what.c_str(), r.work_s, r.megabytes,
                 1e3 * r.begin_s, 1e3 * r.end_s, r.dabs_s.size(), 1e6 * median, 1e6 * p99, 1e6 * longest);
     std::fflush(stdout);
-    record.add("long", {{"object", object}, {"work", r.what}},
+    figures.add("long", {{"object", object}, {"work", r.what}},
                {{"work_s", r.work_s}, {"megabytes", r.megabytes}, {"begin_ms", 1e3 * r.begin_s},
                 {"end_ms", 1e3 * r.end_s}, {"dab_us", 1e6 * median}, {"p99_us", 1e6 * p99},
                 {"longest_us", 1e6 * longest}});
@@ -166,7 +166,7 @@ row while_read(sculptor &by, const std::string &path)
 
 } // namespace
 
-void bench_long_measure(bench_scene &s, bool quick, bench_record &record)
+void bench_long_measure(bench_scene &s, bool quick, bench_record &figures)
 {
     held_piece piece = opened();
     demand(clay_copy(&piece->clay, &s.pristine), "clay_copy");
@@ -180,10 +180,10 @@ void bench_long_measure(bench_scene &s, bool quick, bench_record &record)
     alone.what = "none";
     for (int n = 0; n < (quick ? 500 : 4000); n++)
         alone.dabs_s.push_back(by.dab_s());
-    print(alone, s.name, record);
+    print(alone, s.name, figures);
     const scratch_file native(".glaise"), skin(".ply");
-    print(while_written(by, "save .glaise", native.path), s.name, record);
-    print(while_written(by, "export .ply", skin.path), s.name, record);
-    print(while_read(by, native.path), s.name, record);
+    print(while_written(by, "save .glaise", native.path), s.name, figures);
+    print(while_written(by, "export .ply", skin.path), s.name, figures);
+    print(while_read(by, native.path), s.name, figures);
     std::printf("\n");
 }

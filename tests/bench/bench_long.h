@@ -11,6 +11,6 @@
 #include "bench_record.h"
 #include "bench_scene.h"
 
-void bench_long_measure(bench_scene &s, bool quick, bench_record &record);
+void bench_long_measure(bench_scene &s, bool quick, bench_record &figures);
 
 #endif

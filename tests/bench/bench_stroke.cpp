@@ -152,7 +152,7 @@ double sum(const std::vector<double> &of)
 }
 
 void measure_radius(bench_scene &s, double radius, double amount, bool quick, bench_clock_probe &probe,
-                    bench_record &record)
+                    bench_record &figures)
 {
     constexpr size_t count = 100;
     const size_t kept = quick ? 2 : 5, tried_most = 3 * kept;
@@ -190,7 +190,7 @@ void measure_radius(bench_scene &s, double radius, double amount, bool quick, be
                 bench_clock_median(end_us), bench_clock_median(whole_ratio), extra, bench_clock_median(kilobytes), copy,
                 extra / copy, out, tried);
     std::fflush(stdout);
-    record.add("history", {{"object", s.name}},
+    figures.add("history", {{"object", s.name}},
                {{"radius", radius}, {"without_us", bench_clock_median(without_us)},
                 {"with_us", bench_clock_median(with_us)}, {"ratio", bench_clock_median(ratio)},
                 {"end_us", bench_clock_median(end_us)}, {"whole_ratio", bench_clock_median(whole_ratio)},
@@ -199,7 +199,7 @@ void measure_radius(bench_scene &s, double radius, double amount, bool quick, be
 
 } // namespace
 
-void bench_stroke_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &record)
+void bench_stroke_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &figures)
 {
     std::printf("history on %s: strokes of 100 toothpaste dabs; microseconds and kilobytes a dab\n"
                 "  without: nothing recorded; recorded: the same while images are kept; end: comparing, encoding and\n"
@@ -207,7 +207,7 @@ void bench_stroke_measure(bench_scene &s, bool quick, bench_clock_probe &probe, 
                 "%4s %9s %9s %6s %9s %7s %9s %8s %9s %8s   %s\n",
                 s.name.c_str(), "R", "without", "recorded", "ratio", "end", "in all", "extra", "kB", "memcpy", "x copy",
                 "out");
-    measure_radius(s, 16, 0.1, quick, probe, record);
-    measure_radius(s, 32, 0.02, quick, probe, record);
+    measure_radius(s, 16, 0.1, quick, probe, figures);
+    measure_radius(s, 32, 0.02, quick, probe, figures);
     std::printf("\n");
 }

@@ -13,6 +13,6 @@
 #include "bench_record.h"
 #include "bench_scene.h"
 
-void bench_stroke_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &record);
+void bench_stroke_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &figures);
 
 #endif

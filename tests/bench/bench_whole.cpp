@@ -47,18 +47,18 @@ double measure_ms(int rounds, bench_clock_probe &probe, const std::function<void
     return bench_clock_median(quiet.size() >= 2 ? quiet : all);
 }
 
-void print_whole(const bench_scene &s, const char *name, double ms, uint64_t triangles, bench_record &record)
+void print_whole(const bench_scene &s, const char *name, double ms, uint64_t triangles, bench_record &figures)
 {
     std::printf("  %-34s %9.2f ms %9.1f M triangles/s %9llu triangles\n", name, ms,
                 static_cast<double>(triangles) / ms / 1e3, static_cast<unsigned long long>(triangles));
     std::fflush(stdout);
-    record.add("whole", {{"object", s.name}, {"engine", name}},
+    figures.add("whole", {{"object", s.name}, {"engine", name}},
                {{"ms", ms}, {"triangles", static_cast<double>(triangles)}});
     const double mine = static_cast<double>(s.rig->skin.triangles), other = static_cast<double>(triangles);
     bench_rig_demand(std::abs(mine - other) <= 0.01 * mine, std::string(name) + " makes another surface");
 }
 
-void print_memory(const bench_scene &s, bench_record &record)
+void print_memory(const bench_scene &s, bench_record &figures)
 {
     /* Of engines that hold this object and never held more. */
     const double corners = static_cast<double>(s.pristine.corners);
@@ -74,22 +74,22 @@ void print_memory(const bench_scene &s, bench_record &record)
         std::printf("; OpenVDB %.1f", numbers.back().second);
     }
     std::printf("\n");
-    record.add("memory", {{"object", s.name}}, numbers);
+    figures.add("memory", {{"object", s.name}}, numbers);
 }
 
 } // namespace
 
-bench_whole_bandwidth bench_whole_measure_bandwidth(bench_record &record)
+bench_whole_bandwidth bench_whole_measure_bandwidth(bench_record &figures)
 {
     const bench_whole_bandwidth b = {copied_bytes_per_s(size_t{128} << 10, 2000),
                                      copied_bytes_per_s(size_t{256} << 20, 1)};
     std::printf("memcpy moves (read and written) %.0f GB/s in cache (128 KiB), %.1f GB/s from memory (256 MiB)\n\n",
                 b.cache / 1e9, b.memory / 1e9);
-    record.add("memcpy", {}, {{"cache_bytes_per_s", b.cache}, {"memory_bytes_per_s", b.memory}});
+    figures.add("memcpy", {}, {{"cache_bytes_per_s", b.cache}, {"memory_bytes_per_s", b.memory}});
     return b;
 }
 
-void bench_whole_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &record)
+void bench_whole_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &figures)
 {
     const int rounds = quick ? 2 : 5;
     s.restore();
@@ -99,12 +99,12 @@ void bench_whole_measure(bench_scene &s, bool quick, bench_clock_probe &probe, b
         const double ms = measure_ms(rounds, probe, [&] {
             bench_rig_demand(surface_rebuild(&s.rig->skin, &s.rig->field_clay, nullptr) == STATUS_OK, "surface_rebuild");
         });
-        print_whole(s, (std::string("ours, ") + lanes_name(choice)).c_str(), ms, s.rig->skin.triangles, record);
+        print_whole(s, (std::string("ours, ") + lanes_name(choice)).c_str(), ms, s.rig->skin.triangles, figures);
     }
     s.rig->use_rows(bench_rig::choices()[0]);
     if (s.vdb) {
         const double ms = measure_ms(rounds, probe, [&] { s.vdb->whole(); });
-        print_whole(s, "OpenVDB, normals and colours", ms, s.vdb->counts().triangles, record);
+        print_whole(s, "OpenVDB, normals and colours", ms, s.vdb->counts().triangles, figures);
     } else {
         std::printf("  OpenVDB is not here\n");
     }
@@ -113,16 +113,16 @@ void bench_whole_measure(bench_scene &s, bool quick, bench_clock_probe &probe, b
         for (const bool colours : {false, true}) {
             const double ms = measure_ms(rounds, probe, [&] { triangles = vtk->whole(colours); });
             print_whole(s, colours ? "VTK FlyingEdges, normals, colours" : "VTK FlyingEdges, normals", ms, triangles,
-                        record);
+                        figures);
         }
     } else {
         std::printf("  VTK is not here\n");
     }
-    print_memory(s, record);
+    print_memory(s, figures);
     std::printf("\n");
 }
 
-bool bench_whole_soak(bench_scene &s, int dabs, bench_record &record)
+bool bench_whole_soak(bench_scene &s, int dabs, bench_record &figures)
 {
     static const double radii[] = {4, 6, 9};
     static const action kinds[] = {ACTION_TOOTHPASTE, ACTION_SOFT_ERASER, ACTION_SMOOTH};
@@ -145,7 +145,7 @@ bool bench_whole_soak(bench_scene &s, int dabs, bench_record &record)
         const double field = s.rig->clay_bytes(), skin = s.rig->surface_bytes();
         std::printf("%9d %12.0f %12.0f %12llu %12.1f\n", n + 1, field, skin,
                     static_cast<unsigned long long>(s.rig->field_clay.corners), took_us);
-        record.add("soak", {{"object", s.name}}, {{"dabs", n + 1}, {"field", field}, {"surface", skin}});
+        figures.add("soak", {{"object", s.name}}, {{"dabs", n + 1}, {"field", field}, {"surface", skin}});
         first = first > 0 ? first : field + skin;
         worst = std::max(worst, field + skin);
         start = bench_clock_wall_s();

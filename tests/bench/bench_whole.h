@@ -17,10 +17,10 @@
 struct bench_whole_bandwidth {
     double cache, memory;
 };
-bench_whole_bandwidth bench_whole_measure_bandwidth(bench_record &record);
+bench_whole_bandwidth bench_whole_measure_bandwidth(bench_record &figures);
 
-void bench_whole_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &record);
+void bench_whole_measure(bench_scene &s, bool quick, bench_clock_probe &probe, bench_record &figures);
 /* Adds, erases and smooths all over the object; answers whether memory stayed flat after the first tenth. */
-bool bench_whole_soak(bench_scene &s, int dabs, bench_record &record);
+bool bench_whole_soak(bench_scene &s, int dabs, bench_record &figures);
 
 #endif

@@ -83,11 +83,11 @@ options parse(int argc, char **argv)
     return o;
 }
 
-void print_machine(bench_record &record)
+void print_machine(bench_record &figures)
 {
     std::printf("%speers     OpenVDB %s, one thread, compiled with -O3 -march=native -DNDEBUG; VTK %s, one thread\n\n",
                 bench_machine_text().c_str(), vdb_peer_version().c_str(), vtk_peer_version().c_str());
-    record.add("machine",
+    figures.add("machine",
                {{"processor", bench_machine_processor()}, {"compiler", bench_machine_compiler()}, {"flags", BENCH_FLAGS},
                 {"openvdb", vdb_peer_version()}, {"vtk", vtk_peer_version()}},
                {});
@@ -105,19 +105,19 @@ void print_legend()
         "           with the least disturbed\n\n");
 }
 
-void run(const options &o, bench_record &record, bool *flat)
+void run(const options &o, bench_record &figures, bool *flat)
 {
     if (o.long_work) {
         for (const std::string &name : o.objects) {
             bench_scene scene(name);
-            bench_long_measure(scene, o.quick, record);
+            bench_long_measure(scene, o.quick, figures);
         }
         return;
     }
     if (o.threads > 1) {
         for (const std::string &name : o.objects) {
             bench_scene scene(name);
-            bench_hands_measure(scene, o.quick, record);
+            bench_hands_measure(scene, o.quick, figures);
         }
         return;
     }
@@ -125,7 +125,7 @@ void run(const options &o, bench_record &record, bool *flat)
     bench_clock_probe probe(o.threads);
     bench_dabs_setting set = {o.quick, o.threads, 1, 1};
     if (!o.soak) {
-        const bench_whole_bandwidth b = bench_whole_measure_bandwidth(record);
+        const bench_whole_bandwidth b = bench_whole_measure_bandwidth(figures);
         set.cache_bytes_per_s = b.cache;
         set.memory_bytes_per_s = b.memory;
         print_legend();
@@ -133,18 +133,18 @@ void run(const options &o, bench_record &record, bool *flat)
     for (const std::string &name : o.objects) {
         bench_scene scene(name);
         if (o.soak) {
-            *flat = bench_whole_soak(scene, o.quick ? 10000 : 100000, record) && *flat;
+            *flat = bench_whole_soak(scene, o.quick ? 10000 : 100000, figures) && *flat;
             continue;
         }
         bench_dabs_print_head(scene);
         for (const bench_dabs_row &row : bench_dabs_rows(o.radius))
-            bench_dabs_measure(scene, row, set, probe, record);
+            bench_dabs_measure(scene, row, set, probe, figures);
         std::printf("\n");
         if (o.radius > 0)
             continue;
-        bench_whole_measure(scene, o.quick, probe, record);
+        bench_whole_measure(scene, o.quick, probe, figures);
         if (!scene.is_large())
-            bench_stroke_measure(scene, o.quick, probe, record);
+            bench_stroke_measure(scene, o.quick, probe, figures);
     }
 }
 
@@ -155,13 +155,13 @@ int main(int argc, char **argv)
     options o = parse(argc, argv);
     if (o.soak && o.objects.size() > 1)
         o.objects = {"1M"};
-    bench_record record;
+    bench_record figures;
     bool flat = true;
     const double start = bench_clock_wall_s();
-    print_machine(record);
-    run(o, record, &flat);
+    print_machine(figures);
+    run(o, figures, &flat);
     std::printf("%.0f s in all\n", bench_clock_wall_s() - start);
-    if (!o.json.empty() && !record.write(o.json)) {
+    if (!o.json.empty() && !figures.write(o.json)) {
         std::fprintf(stderr, "bench_workload: %s cannot be written\n", o.json.c_str());
         return 2;
     }

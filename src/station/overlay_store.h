@@ -6,10 +6,10 @@
  * Owner:   the caller owns both stores; the port refers to the overlay_store, which must outlive it.
  * Errors:  those of the store beneath.
  */
-#ifndef GLAISE_WIRING_OVERLAY_STORE_H
-#define GLAISE_WIRING_OVERLAY_STORE_H
+#ifndef GLAISE_STATION_OVERLAY_STORE_H
+#define GLAISE_STATION_OVERLAY_STORE_H
 
-#include "history/byte_store.h"
+#include "sculpture/sculpture.h"
 
 #include <map>
 #include <set>

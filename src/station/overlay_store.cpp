@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "wiring/overlay_store.h"
+#include "station/overlay_store.h"
 
 #include <algorithm>
 #include <cstring>

@@ -3,10 +3,13 @@
  *       its syncs it does, so the test would see it.
  * Method: a guest (ext4 on a disk whose every write is logged) plays a tape of strokes, undos, redos and forks on a
  *         small ring. Each "kept" is written behind the file system as soon as it is said, so that the log says what
- *         had been promised at each of its entries. The power is cut at seeded entries, every second time right where
- *         something was promised; what was not flushed is kept, dropped or torn (write_log.h). Of each disk: e2fsck
- *         must find it sound once the file system's own journal is played, `glaise check` the last promise or what
- *         came after it, in a state that an uninterrupted run had; every tenth is opened by the program itself. */
+ *         had been promised at each of its entries. The power is cut at seeded entries, three times out of four where
+ *         something is not flushed; that is kept, dropped or torn (write_log.h). Of each disk: e2fsck must find it
+ *         sound once the file system's own journal is played, `glaise check` the last promise or what came after it,
+ *         in a state that an uninterrupted run had; every tenth is opened by the program itself.
+ *         One thing check may complain of: where an undo-file was being begun anew, its former first record can still
+ *         be there, with other bricks behind it, and nothing tells that from damage. Both checkpoints hold that stroke.
+ *         Such disks are counted, and each of them is opened. */
 #include "tests/crash/real_life.h"
 #include "tests/vm/guest_run.h"
 #include "tests/vm/write_log.h"
@@ -34,14 +37,14 @@ constexpr int TOLD_MAX = 5; /* failures in full */
 struct found {
     std::string file_system; /* what e2fsck said of it; "": it is sound */
     std::string store;       /* what is wrong with the store */
-    bool absent = true;
+    bool absent = true, half_begun = false;
     uint64_t record = 0, stroke = 0, records = 0;
     unsigned checkpoints = 0;
     std::string digest;
 };
 
 struct tally {
-    uint64_t cuts = 0, with_pending = 0, with_promise = 0, beyond = 0, opened = 0;
+    uint64_t cuts = 0, with_pending = 0, with_promise = 0, beyond = 0, opened = 0, half_begun = 0;
     uint64_t damaged = 0, lost = 0, wrong = 0, records_lost_most = 0;
     write_log_fates fates;
     std::set<uint64_t> strokes;
@@ -85,7 +88,7 @@ protected:
     std::string judge(const found &f, const real_life_kept &promised, tally *t) const;
     tally cut(const std::string &name, uint64_t count, bool must_hold);
     void report(const std::string &name, const tally &t) const;
-    void save(const std::string &name);
+    void keep(const write_log_bytes &disk, size_t entry) const;
 
     uint64_t seed = 0;
     seeded chance{0};
@@ -95,6 +98,21 @@ protected:
     std::vector<real_life_kept> promises;  /* at each entry, the last one */
     std::vector<size_t> promised_at;       /* entries */
 };
+
+void put_disk(const fs::path &image, const write_log_bytes &disk)
+{
+    const auto bytes = static_cast<std::streamsize>(disk.size());
+    std::ofstream(image, std::ios::binary).write(reinterpret_cast<const char *>(disk.data()), bytes);
+}
+
+/* Is nothing wrong but that an undo-file which was being begun anew is neither the old nor the new? */
+bool is_half_begun(const std::string &check)
+{
+    const std::string problem = "problem ", bricks = "expected the bricks that this record's checksum vouches for\n";
+    const size_t at = check.find(problem), more = check.find(problem, at + 1), end = check.find('\n', at);
+    return at != std::string::npos && more == std::string::npos && check.find("opening ") == std::string::npos &&
+           check.substr(at, end + 1 - at).ends_with(bricks);
+}
 
 /* --- the run --- */
 
@@ -151,7 +169,8 @@ void power_cut::run_guest(const std::string &name, const std::string &preload)
 void power_cut::take_log(const fs::path &folder)
 {
     const std::string disk = real_life_text(folder / "base.img");
-    before.assign(disk.begin(), disk.end());
+    ASSERT_EQ(disk.size(), DISK_BYTES);
+    before.assign(disk.begin(), disk.begin() + FILE_SYSTEM_BYTES);
     ASSERT_EQ(write_log_read((folder / "write.log").string(), &log), "");
     real_life_kept last;
     promises.clear();
@@ -172,17 +191,20 @@ void power_cut::take_log(const fs::path &folder)
 
 /* --- the cuts --- */
 
-/* In ascending order. Every second one right where something was promised, or little later. */
+/* In ascending order. */
 std::vector<size_t> power_cut::cuts_of(uint64_t count)
 {
-    const auto entries = static_cast<int64_t>(log.entries.size());
-    std::vector<size_t> cuts;
-    for (uint64_t n = 0; n < count; n++) {
-        const auto any = static_cast<size_t>(seeded_int(chance, 0, entries - 1));
-        const auto promise = static_cast<size_t>(seeded_int(chance, 0, static_cast<int64_t>(promised_at.size()) - 1));
-        const auto later = static_cast<size_t>(seeded_int(chance, 0, 2));
-        cuts.push_back(n % 2 ? any : std::min(promised_at[promise] + later, log.entries.size() - 1));
+    std::vector<size_t> exposed, cuts; /* exposed: something there is not flushed */
+    bool pending = false;
+    for (size_t n = 0; n < log.entries.size(); n++) {
+        const write_log_entry &e = log.entries[n];
+        pending = (pending && !e.flush) || (e.bytes > 0 && e.offset < FILE_SYSTEM_BYTES);
+        if (pending)
+            exposed.push_back(n);
     }
+    const auto any_of = [this](size_t n) { return static_cast<size_t>(seeded_bits(chance) % n); };
+    for (uint64_t n = 0; n < count; n++)
+        cuts.push_back(n % 4 == 0 ? any_of(log.entries.size()) : exposed[any_of(exposed.size())]);
     std::sort(cuts.begin(), cuts.end());
     return cuts;
 }
@@ -191,7 +213,7 @@ found power_cut::look(const write_log_bytes &disk)
 {
     found f;
     const std::string image = (base / "cut.img").string(), store = (base / "store").string();
-    std::ofstream(image, std::ios::binary).write(reinterpret_cast<const char *>(disk.data()), FILE_SYSTEM_BYTES);
+    put_disk(image, disk);
     const int mended = tool("e2fsck", {"-p", image});
     if (mended > 1)
         f.file_system = "e2fsck -p ended with " + std::to_string(mended) + ": " + told();
@@ -205,7 +227,8 @@ found power_cut::look(const write_log_bytes &disk)
     const int checked = run({"check", store}, "check");
     const std::string said_of_it = said("check");
     const std::string stroke = real_life_value(said_of_it, "stroke"), record = real_life_value(said_of_it, "record");
-    if (checked != 0 || stroke.empty() || record.empty())
+    f.half_begun = checked == 1 && is_half_begun(said_of_it);
+    if ((checked != 0 && !f.half_begun) || stroke.empty() || record.empty())
         f.store = "glaise check ended with " + std::to_string(checked) + ": " + said_of_it + said("check.err");
     if (stroke.empty() || record.empty())
         return f;
@@ -225,7 +248,8 @@ void power_cut::open_again(const found &f)
     words.insert(words.end(), {"--stats", (base / "again.json").string()});
     ASSERT_EQ(run(words, "again"), 0) << said("again.err");
     ASSERT_NE(said("again.json").find(f.digest), std::string::npos) << said("again");
-    ASSERT_EQ(run({"check", (base / "store").string()}, "check"), 0) << said("check");
+    const int checked = run({"check", (base / "store").string()}, "check");
+    ASSERT_TRUE(checked == 0 || (f.half_begun && is_half_begun(said("check")))) << said("check");
     ASSERT_EQ(real_life_value(said("check"), "digest"), f.digest);
 }
 
@@ -255,6 +279,7 @@ std::string power_cut::judge(const found &f, const real_life_kept &promised, tal
                (same ? "" : " was not promised with its record") + ". " + f.store;
     }
     t->beyond += f.record > promised.record;
+    t->half_begun += f.half_begun;
     t->strokes.insert(f.stroke);
     return "";
 }
@@ -269,8 +294,9 @@ void power_cut::report(const std::string &name, const tally &t) const
         n(t.with_promise) + " with something promised; unflushed writes, at " + n(t.with_pending) + " of them: " +
         n(t.fates.kept) + " kept, " + n(t.fates.dropped) + " dropped, " + n(t.fates.torn) +
         " torn\n  file systems damaged: " + n(t.damaged) + "; lost what was promised: " + n(t.lost) + " (at most " +
-        n(t.records_lost_most) + " records); otherwise wrong: " + n(t.wrong) + "\n  came back beyond the promise: " +
-        n(t.beyond) + "; at " + n(t.strokes.size()) + " different strokes; opened and checked again: " + n(t.opened);
+        n(t.records_lost_most) + " records); otherwise wrong: " + n(t.wrong) + "; undo-files half begun anew: " +
+        n(t.half_begun) + "\n  came back beyond the promise: " + n(t.beyond) + "; at " +
+        n(t.strokes.size()) + " different strokes; opened and checked again: " + n(t.opened);
     std::puts(text.c_str());
 }
 
@@ -288,9 +314,11 @@ tally power_cut::cut(const std::string &name, uint64_t count, bool must_hold)
         t.with_pending += fates.kept + fates.dropped + fates.torn > 0;
         const found f = look(left);
         const std::string trouble = judge(f, promises[entry], &t);
-        if (must_hold && !trouble.empty() && t.damaged + t.lost + t.wrong <= TOLD_MAX)
+        if (must_hold && !trouble.empty() && t.damaged + t.lost + t.wrong <= TOLD_MAX) {
             ADD_FAILURE() << where << ": " << trouble;
-        if (must_hold && trouble.empty() && !f.absent && t.cuts % 10 == 0) {
+            keep(left, entry);
+        }
+        if (must_hold && trouble.empty() && !f.absent && (f.half_begun || t.cuts % 10 == 0)) {
             SCOPED_TRACE(where);
             open_again(f);
             t.opened++;
@@ -301,13 +329,16 @@ tally power_cut::cut(const std::string &name, uint64_t count, bool must_hold)
     return t;
 }
 
-/* The run, so that GLAISE_CUT_RUN can cut it again. */
-void power_cut::save(const std::string &name)
+/* A disk as it was found, and the run, so that GLAISE_CUT_RUN can cut it again. */
+void power_cut::keep(const write_log_bytes &disk, size_t entry) const
 {
-    const fs::path folder = fs::path(VM_FOLDER) / name;
+    const fs::path folder = fs::path(VM_FOLDER) / "failed";
     fs::create_directories(folder);
+    const fs::path image = folder / ("cut-" + std::to_string(seed) + "-" + std::to_string(entry) + ".img");
+    put_disk(image, disk);
+    std::printf("  the disk: %s\n", image.c_str());
     for (const char *file : {"base.img", "write.log", "life.tape"})
-        if (fs::exists(base / file))
+        if (fs::exists(base / file) && !std::getenv("GLAISE_CUT_RUN"))
             fs::copy_file(base / file, folder / file, fs::copy_options::overwrite_existing);
     std::printf("  to cut it again: GLAISE_CUT_SEED=%" PRIu64 " GLAISE_CUT_RUN=%s\n", seed, folder.c_str());
 }
@@ -327,10 +358,8 @@ TEST_F(power_cut, loses_nothing_that_was_acknowledged)
     const tally t = cut("with syncs", cuts, true);
     EXPECT_EQ(t.damaged + t.lost + t.wrong, 0u);
     EXPECT_GT(t.with_promise, cuts / 2);
-    EXPECT_GT(t.with_pending, cuts / 2);
+    EXPECT_GE(t.with_pending, cuts * 3 / 4);
     EXPECT_GT(t.strokes.size(), std::min<uint64_t>(cuts / 8, STROKES / 5)) << "always at the same place proves little";
-    if (HasFailure())
-        save("lost_with_syncs");
 }
 
 TEST_F(power_cut, control_without_syncs_loses)

@@ -106,7 +106,7 @@ write_log_bytes write_log_disk::after_cut(size_t entry, seeded &chance, write_lo
         const placed to = {log, &left};
         if (all[n].past_cache) {
             put(to, all[n], 0, all[n].bytes);
-        } else if (all[n].bytes == 0) {
+        } else if (all[n].bytes == 0 || all[n].offset >= left.size()) {
             continue;
         } else if (seeded_chance(chance, 1.0 / 3)) {
             put_torn(to, all[n], chance);

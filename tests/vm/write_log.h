@@ -53,7 +53,8 @@ struct write_log_fates {
     uint64_t kept = 0, dropped = 0, torn = 0;
 };
 
-/* A disk that loses power at one entry after the other, each time as if for the first time. */
+/* A disk that loses power at one entry after the other, each time as if for the first time. What was written behind its
+   end is left out. */
 struct write_log_disk {
     const write_log *log;
     write_log_bytes durable; /* at first: as it was before the log began */

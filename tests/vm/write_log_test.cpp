@@ -115,6 +115,17 @@ TEST(write_log, the_first_block_is_whole)
     EXPECT_EQ(fates(log, 0, 6, 4), (texts{"....", "aa..", "..a.", "...a", "aaa.", "aa.a", "..aa", "aaaa"}));
 }
 
+TEST(write_log, what_lies_behind_the_disk_has_no_fate)
+{
+    const write_log log = log_of({{64, 2, 0, 'a'}, {63, 2, 0, 'b'}});
+    write_log_disk disk = {&log, write_log_bytes(DISK_BYTES, '.')};
+    seeded chance{1};
+    write_log_fates counts;
+    EXPECT_EQ(disk.after_cut(1, chance, &counts).size(), DISK_BYTES);
+    EXPECT_EQ(counts.kept + counts.dropped + counts.torn, 1u);
+    EXPECT_EQ(seen(disk.whole(), 62, 2), ".b");
+}
+
 TEST(write_log, cuts_do_not_touch_what_is_durable)
 {
     const write_log log = log_of({{20, 1, 0, 'a'}, {0, 0, FLUSH, 0}, {20, 1, 0, 'b'}, {21, 1, 0, 'c'}});

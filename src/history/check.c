@@ -22,8 +22,10 @@ typedef struct check {
     void *self;
     check_facts *facts;
     struct ring files;
-    link base;        /* of the newest sound checkpoint */
-    uint64_t newest;  /* use of the file that was written last */
+    link base;           /* of the newest sound checkpoint */
+    uint64_t beneath;    /* the last sequence that both checkpoints hold; 0: there are not two */
+    uint64_t newest;     /* use of the file that was written last */
+    uint32_t half_begun; /* the one file that may be neither what it was nor what it was to become, or RING_NONE */
     byte_buffer bricks;
 } check;
 
@@ -82,6 +84,22 @@ static void end_of_file(check *c, uint32_t file, uint64_t offset, status why, co
     }
 }
 
+/* Bricks that are not what their header says: is that as it may be? A cut while a file is begun anew can leave headers
+   of what it held, and other bricks behind them. That is one file, and both checkpoints hold what it had. */
+static void unsound_bricks(check *c, uint32_t file, uint64_t offset, const record *r)
+{
+    const ring_name name = ring_name_of(file);
+    if (r->use >= c->newest) {
+        note(c, name.text, offset, "sound bricks: a record that a power cut left unfinished, it will be cut off");
+    } else if (r->sequence <= c->beneath && (c->half_begun == RING_NONE || c->half_begun == file)) {
+        c->half_begun = file;
+        note(c, name.text, offset, "sound bricks: its file was being begun anew, or is damaged; what it had is not "
+                                   "needed but to be undone");
+    } else {
+        problem(c, name.text, offset + RECORD_HEADER_BYTES, "the bricks that this record's checksum vouches for");
+    }
+}
+
 static status look_at_file(check *c, uint32_t file)
 {
     const ring_name name = ring_name_of(file);
@@ -107,10 +125,8 @@ static status look_at_file(check *c, uint32_t file)
             return s;
         if (s == STATUS_OK)
             c->facts->records++;
-        else if (f->use >= c->newest)
-            note(c, name.text, offset, "sound bricks: a record that a power cut left unfinished, it will be cut off");
         else
-            problem(c, name.text, offset + RECORD_HEADER_BYTES, "the bricks that this record's checksum vouches for");
+            unsound_bricks(c, file, offset, &r);
     }
     if (s != STATUS_OK)
         end_of_file(c, file, offset, s, bytes, have, &trouble);
@@ -152,7 +168,7 @@ static status look_at_field(check *c, const char *name)
         problem(c, name, trouble.offset, trouble.expected);
         return STATUS_OK;
     }
-    c->facts->checkpoints++;
+    c->beneath = c->facts->checkpoints++ == 0 || facts.sequence < c->beneath ? facts.sequence : c->beneath;
     if (facts.sequence >= c->base.sequence)
         c->base = (link){facts.sequence, facts.seal, 0};
     return STATUS_OK;
@@ -197,19 +213,21 @@ static void take_name(void *self, const char *name)
 
 status check_run(const byte_store *store, check_teller tell, void *self, check_facts *facts_out)
 {
-    check c = {.store = store, .tell = tell, .self = self, .facts = facts_out};
+    check c = {.store = store, .tell = tell, .self = self, .facts = facts_out, .half_begun = RING_NONE};
     memset(facts_out, 0, sizeof *facts_out);
     status s = ring_open(&c.files, store);
+    if (s == STATUS_OK)
+        s = look_at_field(&c, HISTORY_FIELD_BEFORE_NAME);
+    if (s == STATUS_OK)
+        s = look_at_field(&c, HISTORY_FIELD_NAME);
+    if (facts_out->checkpoints < 2)
+        c.beneath = 0;
     if (s == STATUS_OK) {
         find_newest(&c);
         for (uint32_t n = 0; s == STATUS_OK && n < c.files.count; n++)
             if (c.files.files[n].bytes > 0)
                 s = look_at_file(&c, n);
     }
-    if (s == STATUS_OK)
-        s = look_at_field(&c, HISTORY_FIELD_BEFORE_NAME);
-    if (s == STATUS_OK)
-        s = look_at_field(&c, HISTORY_FIELD_NAME);
     if (s == STATUS_OK) {
         look_for_gaps(&c);
         s = store->list(store->self, take_name, &c);

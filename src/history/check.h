@@ -4,9 +4,10 @@
  *          offset. Nothing is changed.
  * Is not:  Recovery (recovery.h), which finds the latest state and sets things in order; it is told here what it made
  *          of a copy (wiring/check_store.h).
- * Shape:   the undo-files one by one, every record with its bricks; then both checkpoints, read whole; then whether the
- *          records since the newest sound one follow on. What a power cut leaves behind is no problem but a note: a
- *          torn record at the end of what was written last, a half-made file.
+ * Shape:   both checkpoints, read whole; then the undo-files one by one, every record with its bricks; then whether the
+ *          records since the newest sound checkpoint follow on. What a power cut leaves behind is no problem but a
+ *          note: a torn record at the end of what was written last, a half-made file, and one file that was being begun
+ *          anew. Nothing tells that from damage; both checkpoints hold what it had, and undo ends there.
  * Owner:   the caller owns the store and what `tell` is given for.
  * Errors:  STATUS_IO where the store cannot be listed, STATUS_NO_MEMORY. Everything else is told.
  * Cost:    every byte is read, and the checkpoints are made into clay.

@@ -17,7 +17,7 @@
 
 namespace {
 
-constexpr history_settings FEW = {10, 1 << 16, 1 << 24, 1 << 24};
+constexpr history_settings FEW = {10, 1 << 16, 1 << 24, 1 << 24, 4};
 
 /* Calls about one folder wait here. */
 struct barrier {

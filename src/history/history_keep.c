@@ -77,8 +77,9 @@ static void reclaim(history *h)
         if (f->stroke != 0 && tree_find(&h->tree, f->stroke))
             continue;
         f->free = !f->spoilt;
-        if (f->spoilt) {
-            status s = ring_set_aside(&h->ring, n);
+        const bool small = f->free && f->bytes < h->settings.file_bytes / 2; /* file_from_reserve made it */
+        if (f->spoilt || small) {
+            status s = small ? ring_remove(&h->ring, n) : ring_set_aside(&h->ring, n);
             (void)s; /* another time */
         }
     }
@@ -104,18 +105,71 @@ static bool space_from_undo(history *h)
     return file != RING_NONE && ring_remove(&h->ring, file) == STATUS_OK;
 }
 
-/* For what is made already. */
+/* As long as what is held of one stroke, and a file at the most. */
+static uint64_t least_file(const history *h)
+{
+    uint64_t bytes = 0, stroke = 0;
+    for (const history_held *held = h->held_first; held; held = held->next) {
+        stroke = stroke ? stroke : held->r.stroke;
+        if (held->r.stroke != 0 && held->r.stroke != stroke)
+            break;
+        bytes += record_span(held->r.bytes);
+    }
+    bytes = bytes > RING_FILE_BYTES_MIN ? bytes : RING_FILE_BYTES_MIN;
+    return bytes < h->settings.file_bytes ? bytes : h->settings.file_bytes;
+}
+
+/* For what is made already: as small as it can be, since nobody knows how much is still to come. */
 static status file_from_reserve(history *h, uint32_t *file_out)
 {
-    const uint64_t bytes = h->settings.file_bytes;
-    status s = STATUS_NO_SPACE;
+    const uint64_t bytes = least_file(h);
+    status s = h->ring.count < RING_FILES_MAX ? ring_make(&h->ring, bytes, file_out) : STATUS_NO_SPACE;
     while (s == STATUS_NO_SPACE && h->ring.count < RING_FILES_MAX && reserve_give(&h->reserve, bytes) > 0)
         s = ring_make(&h->ring, bytes, file_out);
     h->fields_owed = FIELDS_TO_GET_BENEATH;
     h->wants_field = true;
     h->reserve_aim = 0;
-    h->spent = s == STATUS_OK && !h->field_short && h->reserve.bytes < h->settings.reserve_files * bytes / 2;
+    h->spent = s == STATUS_OK && !h->field_short &&
+               h->reserve.bytes < h->settings.reserve_files * h->settings.file_bytes / 2;
     return s;
+}
+
+/* What the reserve must hold for checkpoints of so many bytes: the second has the place that the first makes free. */
+static uint64_t reserve_for(const history *h, uint64_t field)
+{
+    const uint64_t freed = h->before_bytes < field ? h->before_bytes : field;
+    return 2 * field - freed + h->settings.reserve_files * h->settings.file_bytes;
+}
+
+/* Begins or ends its growing. A quarter more than the last checkpoint had, and let be between that and its double. */
+static void reserve_aim(history *h)
+{
+    uint64_t field = h->field_bytes > h->field_missed ? h->field_bytes : h->field_missed;
+    field = field > 0 ? field : h->put_since;
+    const uint64_t whole = h->settings.reserve_files > 0 ? reserve_for(h, field + field / 4) : 0;
+    const bool may = !h->reserve_tried && !h->reserve.spoilt && h->medium == HISTORY_MEDIUM_GOOD &&
+                     !(h->fields_owed > 0 && h->wants_field);
+    if (h->reserve_aim > 0 || !may)
+        return;
+    if (h->reserve.bytes > 2 * whole)
+        reserve_give(&h->reserve, h->reserve.bytes - whole);
+    else if (whole > 0 && h->reserve.bytes < reserve_for(h, field))
+        h->reserve_aim = whole;
+}
+
+/* A tape brings strokes faster than there is time for what can wait: with each file that is made for several of them
+   the reserve grows, or it would not be there when they have filled the medium. */
+static void reserve_beside(history *h)
+{
+    bool done = false;
+    if (h->held_first->r.stroke == h->held_last->r.stroke)
+        return;
+    reserve_aim(h);
+    if (h->reserve_aim == 0)
+        return;
+    const status s = reserve_grow(&h->reserve, h->reserve_aim, &done);
+    h->reserve_aim = s == STATUS_OK && !done ? h->reserve_aim : 0;
+    h->reserve_tried = s != STATUS_OK;
 }
 
 /* An undo-file to begin. When the medium is full, undo reaches less far. */
@@ -129,6 +183,8 @@ static status file_take(history *h, uint32_t *file_out)
     const bool within_budget = h->ring.bytes + h->settings.file_bytes <= h->settings.budget_bytes;
     if (within_budget || h->medium == HISTORY_MEDIUM_FAILS)
         s = ring_make(&h->ring, h->settings.file_bytes, file_out);
+    if (s == STATUS_OK)
+        reserve_beside(h);
     while (s == STATUS_NO_SPACE && *file_out == RING_NONE && forget_one(h))
         if ((*file_out = free_file(h)) != RING_NONE)
             s = STATUS_OK;
@@ -364,29 +420,6 @@ static bool files_work(history *h)
     if (!removed) /* or it is no more, and a record in it would make a file that is too short */
         h->ring.files[file].spoilt = true;
     return removed;
-}
-
-/* What the reserve must hold for checkpoints of so many bytes: the second has the place that the first makes free. */
-static uint64_t reserve_for(const history *h, uint64_t field)
-{
-    const uint64_t freed = h->before_bytes < field ? h->before_bytes : field;
-    return 2 * field - freed + h->settings.reserve_files * h->settings.file_bytes;
-}
-
-/* Begins or ends its growing. A quarter more than the last checkpoint had, and let be between that and its double. */
-static void reserve_aim(history *h)
-{
-    uint64_t field = h->field_bytes > h->field_missed ? h->field_bytes : h->field_missed;
-    field = field > 0 ? field : h->put_since;
-    const uint64_t whole = h->settings.reserve_files > 0 ? reserve_for(h, field + field / 4) : 0;
-    const bool may = !h->reserve_tried && !h->reserve.spoilt && h->medium == HISTORY_MEDIUM_GOOD &&
-                     !(h->fields_owed > 0 && h->wants_field);
-    if (h->reserve_aim > 0 || !may)
-        return;
-    if (h->reserve.bytes > 2 * whole)
-        reserve_give(&h->reserve, h->reserve.bytes - whole);
-    else if (whole > 0 && h->reserve.bytes < reserve_for(h, field))
-        h->reserve_aim = whole;
 }
 
 /* One slice of it. Where there is no room it takes undo's, as long as undo has more. */

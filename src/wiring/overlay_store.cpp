@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "wiring/overlay_store.h"
 
-#include "history/reserve.h"
-
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -159,8 +157,7 @@ status overlay_store_copy(overlay_store *s, const std::set<std::string> &without
     };
     status outcome = port_list(s, add, &names);
     for (const std::string &name : names)
-        if (outcome == STATUS_OK && name.find(".set-aside") == std::string::npos && name != RESERVE_NAME &&
-            !without.contains(name))
+        if (outcome == STATUS_OK && name.find(".set-aside") == std::string::npos && !without.contains(name))
             outcome = copy_file(*s, name, to);
     return outcome;
 }

@@ -140,10 +140,8 @@ void fill_up(uint64_t n)
             ASSERT_EQ(p.digest(), digest);
         }
         ASSERT_EQ(disk->misuse, "");
-        if (!full) {
-            ASSERT_EQ(p.h.kept, p.h.sequence);
-            ASSERT_EQ(made, BEFORE);
-        }
+        ASSERT_EQ(p.h.kept, p.h.sequence) << "what fills it is our own undo, and there is a reserve";
+        ASSERT_EQ(made, full ? WHILE_FULL : BEFORE);
         kept = p.h.kept;
         auto left = disk->after_cut(n);
         left->most_bytes = disk->most_bytes;

@@ -87,6 +87,10 @@ TEST(history_full, undo_reaches_less_far_and_sculpting_goes_on_for_ever)
         EXPECT_LE(p.h.tree.count, 13u) << n;
     }
     EXPECT_EQ(p.h.medium, HISTORY_MEDIUM_GOOD);
+    const uint64_t calls = m.calls;
+    for (int n = 0; n < 10; n++)
+        ASSERT_NO_FATAL_FAILURE(rest(p));
+    EXPECT_LE(m.calls, calls + 10 * 3) << "each time an undo-file is tried to be made ahead, and nothing else";
     EXPECT_GE(piece_steps_undo_all(p, digests), 4u);
     EXPECT_EQ(m.misuse, "");
 }

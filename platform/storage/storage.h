@@ -16,8 +16,12 @@
  *         the folder. Absence is a state where a function says so, else -ENOENT.
  *         After a failed sync Linux takes the lost pages for clean, and a second sync would succeed without them. So
  *         the file is spoilt: nothing is written to it or synced any more (-EIO) until it is removed or replaced by a
- *         rename. It may be read, and renamed to be kept aside.
+ *         rename. It may be read, and renamed to be kept aside. What Linux holds of those pages is dropped at once, so
+ *         that it is the medium that is read, also by the next process. One that died before its sync leaves pages that
+ *         Linux goes on to write: they are waited for when the file is opened, and dropped if that failed. What is left
+ *         is a process killed between the sync that failed and the drop, some microseconds.
  * Cost    A sync is one fdatasync, and one fsync of the folder when the name is new; a rename one fsync of the folder.
+ *         Opening a file of which nothing waits to be written: a system call more, below a microsecond.
  * Source  facts/devices.md section G1; rename(2), fsync(2).
  */
 

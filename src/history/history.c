@@ -35,6 +35,20 @@ static status mark_all(clay *c)
     return s;
 }
 
+static uint64_t size_of(const history *h, const char *name)
+{
+    uint64_t bytes = 0;
+    bool exists = false;
+    return h->store.size(h->store.self, name, &bytes, &exists) == STATUS_OK && exists ? bytes : 0;
+}
+
+static void measure(history *h)
+{
+    reserve_open(&h->reserve, &h->store);
+    h->field_bytes = size_of(h, HISTORY_FIELD_NAME);
+    h->before_bytes = size_of(h, HISTORY_FIELD_BEFORE_NAME);
+}
+
 status history_open(history *h, byte_store store, const history_settings *settings, double step_mm, clay *c,
                     history_finding *finding_out)
 {
@@ -46,6 +60,8 @@ status history_open(history *h, byte_store store, const history_settings *settin
     status s = ring_open(&h->ring, &h->store);
     if (s == STATUS_OK)
         s = recovery_run(h, c, finding_out);
+    if (s == STATUS_OK)
+        measure(h);
     if (s == STATUS_OK)
         s = mark_all(c);
     if (s != STATUS_OK) {
@@ -76,7 +92,7 @@ void history_close(history *h)
 
 status history_room(const history *h)
 {
-    if (h->medium == HISTORY_MEDIUM_FULL)
+    if (h->medium == HISTORY_MEDIUM_FULL || (h->medium == HISTORY_MEDIUM_GOOD && h->spent))
         return STATUS_NO_SPACE;
     if (h->held_bytes > h->settings.held_bytes)
         return h->medium == HISTORY_MEDIUM_GOOD ? STATUS_NO_MEMORY : STATUS_IO;
@@ -186,7 +202,7 @@ static void put(history *h, const layout *l)
 static void checkpoint_when_due(history *h)
 {
     const uint64_t strokes = h->settings.strokes, bytes = h->settings.budget_bytes / 8;
-    const bool pays = h->put_since > h->field.bytes / 2;
+    const bool pays = h->put_since > h->field_bytes / 2;
     if ((pays && h->strokes_since > strokes / 4) || h->strokes_since > strokes || h->put_since > bytes)
         h->wants_field = true;
 }

@@ -12,7 +12,7 @@
  *                     history_put    history_keep    history_work
  *
  *          files: undo-0000 ... (ring.h, record.h); "field", the newest checkpoint, and "field.before", the one before
- *          it (checkpoint.h), made as "field.new" and renamed.
+ *          it (checkpoint.h), made as "field.new" and renamed; "reserve", space that is held (reserve.h).
  *
  *          H1  What history_keep has answered STATUS_OK for survives a power cut at any instant, whatever the medium
  *              did with later writes. (history_keep: written, then synced, then counted. tests/crash/crash_test.cpp)
@@ -28,7 +28,31 @@
  *          H6  Nothing that cannot be read is removed: it is renamed to "<name>.set-aside". (recovery_run,
  *              history_fetch. recovery_damage_test)
  *          H7  When the medium fills up, undo reaches less far; then history_room refuses new strokes. What was put
- *              stays put. (history_keep. fault_test: fill levels)
+ *              stays put, and when there is room again sculpting goes on. (history_keep.c: file_take, field_put,
+ *              reserve_work. full_test, fault_test: fill levels; medium_test: real mounts)
+ *          What a medium does that is full:
+ *
+ *              roomy     an undo-file is made when it is needed. The reserve holds what two checkpoints and some
+ *                |       undo-files need, since strokes may be forgotten only when they are beneath both
+ *                | no space for an undo-file
+ *                v
+ *              tight     the oldest stroke beneath both is forgotten, and its file taken
+ *                |
+ *                | none is beneath both
+ *                v
+ *              spent     the undo-file comes out of the reserve, and two checkpoints are owed. They are written, out
+ *                |  \     of the reserve too and then of what forgetting gives; the older one's place is free when the
+ *                |   \    first stands. New strokes begin as long as some undo-files are left in the reserve
+ *                |    '-> both stand: all is beneath them. tight; the reserve is made whole again, out of forgotten
+ *                |        strokes' files if need be, as long as undo has more than it
+ *                | nothing left in it
+ *                v
+ *              full      records are held in memory, no stroke begins. history_keep tries again when it is called;
+ *                        once they are kept: spent, with what is owed
+ *
+ *          A checkpoint that finds no space although all was given is given up, its beginning removed. It is tried
+ *          again when it is due by strokes made since, when a full medium has room again, or when the reserve, which
+ *          now has to hold what was missing as well, could be made whole. Nothing else starts it: `field_short`.
  *          The hardware must keep what it said it flushed. Where it lies, H1 holds up to the first thing it lost, and
  *          recovery says that acknowledged strokes are missing.
  * Owner:   the caller owns the struct and the store; history owns its memory.
@@ -43,6 +67,7 @@
 
 #include "clay/delta.h"
 #include "history/checkpoint.h"
+#include "history/reserve.h"
 #include "history/ring.h"
 #include "history/route.h"
 #include "history/tree.h"
@@ -58,6 +83,9 @@ enum { HISTORY_STROKES_DEFAULT = 200, HISTORY_STROKES_MAX = 9999, HISTORY_SLICE_
 /* What is put and cannot be written stays in memory up to here; then new strokes are refused. */
 #define HISTORY_HELD_BYTES_DEFAULT (UINT64_C(1) << 28)
 
+/* Undo-files in the reserve, for what is made until there are two new checkpoints. */
+#define HISTORY_RESERVE_FILES_DEFAULT 4
+
 #define HISTORY_FIELD_NAME "field"
 #define HISTORY_FIELD_BEFORE_NAME "field.before"
 
@@ -66,10 +94,12 @@ typedef struct history_settings {
     uint64_t file_bytes;   /* of an undo-file; a multiple of 4 KiB, RING_FILE_BYTES_MIN at the least */
     uint64_t budget_bytes; /* of all undo-files; more only where no checkpoint could be made in time */
     uint64_t held_bytes;
+    uint32_t reserve_files; /* 0: no reserve at all */
 } history_settings;
 
 #define HISTORY_SETTINGS_DEFAULT                                                                                       \
-    {HISTORY_STROKES_DEFAULT, HISTORY_FILE_BYTES_DEFAULT, HISTORY_BUDGET_BYTES_DEFAULT, HISTORY_HELD_BYTES_DEFAULT}
+    {HISTORY_STROKES_DEFAULT, HISTORY_FILE_BYTES_DEFAULT, HISTORY_BUDGET_BYTES_DEFAULT, HISTORY_HELD_BYTES_DEFAULT,    \
+     HISTORY_RESERVE_FILES_DEFAULT}
 
 /* What there is to say to the person: one sentence, "" when all is as it should be. */
 typedef struct history_finding {
@@ -87,7 +117,6 @@ typedef struct history_held {
 typedef struct history_base {
     bool there;
     uint64_t sequence, cursor;
-    uint64_t bytes;
 } history_base;
 
 typedef enum history_medium {
@@ -119,6 +148,14 @@ typedef struct history {
     checkpoint_writer *writer; /* NULL: none is being written */
     uint64_t written, unsynced; /* bytes of it */
     checkpoint_facts writing;
+    struct reserve reserve;
+    uint64_t reserve_aim;    /* bytes that it is growing to; 0: it is not */
+    bool reserve_tried;      /* in vain: not again before something has changed */
+    uint64_t field_bytes, before_bytes; /* of the two checkpoints */
+    uint64_t field_missed;   /* so many bytes of one were written when the medium was full; 0: it was not */
+    uint32_t fields_owed;    /* to be written one after the other, since the medium is full */
+    bool field_short;        /* the last one found no space */
+    bool spent;              /* the reserve has few undo-files left, and a checkpoint is on its way */
     history_finding trouble;   /* what went wrong last; the caller may empty it */
 } history;
 

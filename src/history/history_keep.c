@@ -9,8 +9,11 @@
 
 #define FIELD_TEMPORARY HISTORY_FIELD_NAME ".new"
 
-/* Of a checkpoint, between two syncs: the last one should not take long. */
-enum { SYNC_BYTES = 8 * 1024 * 1024 };
+enum {
+    SYNC_BYTES = 8 * 1024 * 1024, /* of a checkpoint, between two syncs: the last one should not take long */
+    FIELDS_TO_GET_BENEATH = 2,
+    GIVEN_BYTES = 256 * 1024, /* from the reserve to a checkpoint, at a time */
+};
 
 static void tell(history *h, const char *what, status why)
 {
@@ -72,8 +75,9 @@ static void reclaim(history *h)
         if (f->stroke != 0 && tree_find(&h->tree, f->stroke))
             continue;
         f->free = !f->spoilt;
-        if (f->spoilt) {
-            status s = ring_set_aside(&h->ring, n);
+        const bool small = f->free && f->bytes < h->settings.file_bytes / 2; /* file_from_reserve made it */
+        if (f->spoilt || small) {
+            status s = small ? ring_remove(&h->ring, n) : ring_set_aside(&h->ring, n);
             (void)s; /* another time */
         }
     }
@@ -86,7 +90,84 @@ static uint32_t free_file(history *h)
     return ring_free_file(&h->ring, h->settings.file_bytes / 2);
 }
 
-/* An undo-file to begin. When the medium is full, undo reaches less far (H7). */
+/* --- a medium that is full: H7 --- */
+
+/* Undo reaches less far, and the medium has room for an undo-file more. */
+static bool space_from_undo(history *h)
+{
+    uint32_t file = free_file(h);
+    while (file == RING_NONE && forget_one(h))
+        file = free_file(h);
+    return file != RING_NONE && ring_remove(&h->ring, file) == STATUS_OK;
+}
+
+/* As long as what is held of one stroke, and a file at the most. */
+static uint64_t least_file(const history *h)
+{
+    uint64_t bytes = 0, stroke = 0;
+    for (const history_held *held = h->held_first; held; held = held->next) {
+        stroke = stroke ? stroke : held->r.stroke;
+        if (held->r.stroke != 0 && held->r.stroke != stroke)
+            break;
+        bytes += record_span(held->r.stored);
+    }
+    bytes = bytes > RING_FILE_BYTES_MIN ? bytes : RING_FILE_BYTES_MIN;
+    return bytes < h->settings.file_bytes ? bytes : h->settings.file_bytes;
+}
+
+/* For what is made already: as small as it can be, since nobody knows how much is still to come. */
+static status file_from_reserve(history *h, uint32_t *file_out)
+{
+    const uint64_t bytes = least_file(h);
+    status s = h->ring.count < RING_FILES_MAX ? ring_make(&h->ring, bytes, file_out) : STATUS_NO_SPACE;
+    while (s == STATUS_NO_SPACE && h->ring.count < RING_FILES_MAX && reserve_give(&h->reserve, bytes) > 0)
+        s = ring_make(&h->ring, bytes, file_out);
+    h->fields_owed = FIELDS_TO_GET_BENEATH;
+    h->reserve_aim = 0;
+    h->spent = s == STATUS_OK && !h->field_short &&
+               h->reserve.bytes < h->settings.reserve_files * h->settings.file_bytes / 2;
+    return s;
+}
+
+/* What the reserve must hold for checkpoints of so many bytes: the second has the place that the first makes free. */
+static uint64_t reserve_for(const history *h, uint64_t field)
+{
+    const uint64_t freed = h->before_bytes < field ? h->before_bytes : field;
+    return 2 * field - freed + h->settings.reserve_files * h->settings.file_bytes;
+}
+
+/* Begins or ends its growing. A quarter more than the last checkpoint had, and let be between that and its double. */
+static void reserve_aim(history *h)
+{
+    uint64_t field = h->field_bytes > h->field_missed ? h->field_bytes : h->field_missed;
+    field = field > 0 ? field : h->put_since;
+    const uint64_t whole = h->settings.reserve_files > 0 ? reserve_for(h, field + field / 4) : 0;
+    const bool may = !h->reserve_tried && !h->reserve.spoilt && h->medium == HISTORY_MEDIUM_GOOD &&
+                     !(h->fields_owed > 0 && h->wants_field);
+    if (h->reserve_aim > 0 || !may)
+        return;
+    if (h->reserve.bytes > 2 * whole)
+        reserve_give(&h->reserve, h->reserve.bytes - whole);
+    else if (whole > 0 && h->reserve.bytes < reserve_for(h, field))
+        h->reserve_aim = whole;
+}
+
+/* A tape brings strokes faster than there is time for what can wait: with each file that is made for several of them
+   the reserve grows, or it would not be there when they have filled the medium. */
+static void reserve_beside(history *h)
+{
+    bool done = false;
+    if (h->held_first->r.stroke == h->held_last->r.stroke)
+        return;
+    reserve_aim(h);
+    if (h->reserve_aim == 0)
+        return;
+    const status s = reserve_grow(&h->reserve, h->reserve_aim, &done);
+    h->reserve_aim = s == STATUS_OK && !done ? h->reserve_aim : 0;
+    h->reserve_tried = s != STATUS_OK;
+}
+
+/* An undo-file to begin. When the medium is full, undo reaches less far. */
 static status file_take(history *h, uint32_t *file_out)
 {
     status s = STATUS_NO_SPACE;
@@ -96,13 +177,24 @@ static status file_take(history *h, uint32_t *file_out)
     const bool within_budget = h->ring.bytes + h->settings.file_bytes <= h->settings.budget_bytes;
     if (within_budget || h->medium == HISTORY_MEDIUM_FAILS)
         s = ring_make(&h->ring, h->settings.file_bytes, file_out);
+    if (s == STATUS_OK)
+        reserve_beside(h);
     while (s == STATUS_NO_SPACE && *file_out == RING_NONE && forget_one(h))
         if ((*file_out = free_file(h)) != RING_NONE)
             s = STATUS_OK;
-    h->wants_field = h->wants_field || s == STATUS_NO_SPACE; /* what may not go now will then */
+    h->wants_field = h->wants_field || (s == STATUS_NO_SPACE && !h->field_short); /* what may not go now will then */
     if (s == STATUS_NO_SPACE && !within_budget)
         s = ring_make(&h->ring, h->settings.file_bytes, file_out);
+    if (s == STATUS_NO_SPACE)
+        s = file_from_reserve(h, file_out);
     return s;
+}
+
+/* The medium took what was held: it is not what it was. */
+static void has_room_again(history *h)
+{
+    h->field_short = h->reserve_tried = h->spent = false;
+    h->wants_field = h->wants_field || h->fields_owed > 0;
 }
 
 /* --- keeping --- */
@@ -176,6 +268,8 @@ status history_keep(history *h)
         tried = tried || s != STATUS_OK;
     }
     if (s == STATUS_OK || !h->held_first) {
+        if (h->medium != HISTORY_MEDIUM_GOOD)
+            has_room_again(h);
         h->medium = HISTORY_MEDIUM_GOOD;
     } else {
         h->medium = s == STATUS_NO_SPACE ? HISTORY_MEDIUM_FULL : HISTORY_MEDIUM_FAILS;
@@ -191,9 +285,12 @@ status history_keep(history *h)
 static status field_put(void *self, const void *bytes, size_t n)
 {
     history *h = (history *)self;
-    status s = h->store.write(h->store.self, FIELD_TEMPORARY, h->written, bytes, n);
-    h->written += n;
-    h->unsynced += n;
+    status s = STATUS_NO_SPACE;
+    do
+        s = h->store.write(h->store.self, FIELD_TEMPORARY, h->written, bytes, n);
+    while (s == STATUS_NO_SPACE && (reserve_give(&h->reserve, GIVEN_BYTES) > 0 || space_from_undo(h)));
+    h->written += s == STATUS_OK ? n : 0;
+    h->unsynced += s == STATUS_OK ? n : 0;
     return s;
 }
 
@@ -201,13 +298,15 @@ status history_field_begin(history *h, const clay *c)
 {
     assert(!h->writer && !h->in_stroke);
     status s = history_keep(h); /* the seal of its last record must be known */
-    if (s == STATUS_OK)
-        s = h->store.remove(h->store.self, FIELD_TEMPORARY);
     if (s != STATUS_OK)
         return s;
-    h->writer = (checkpoint_writer *)malloc(sizeof *h->writer);
+    h->wants_field = false; /* whatever becomes of it, it is not begun again at once */
+    h->reserve_aim = 0;
+    s = h->store.remove(h->store.self, FIELD_TEMPORARY);
+    h->writer = s == STATUS_OK ? (checkpoint_writer *)malloc(sizeof *h->writer) : NULL;
+    h->spent = h->spent && h->writer;
     if (!h->writer)
-        return STATUS_NO_MEMORY;
+        return s == STATUS_OK ? STATUS_NO_MEMORY : s;
     h->writing = (checkpoint_facts){.step_mm = h->step_mm,
                                     .sequence = h->sequence,
                                     .cursor = h->tree.cursor,
@@ -216,7 +315,6 @@ status history_field_begin(history *h, const clay *c)
                                     .dab = h->dab,
                                     .digest = h->digest};
     h->written = h->unsynced = 0;
-    h->wants_field = false;
     h->strokes_since = 0;
     h->put_since = 0;
     checkpoint_writer_begin(h->writer, c, &h->writing, field_put, h);
@@ -240,15 +338,41 @@ static status field_place(history *h)
     if (s == STATUS_OK && exists && !unread) {
         h->before.there = false;
         s = store->rename(store->self, HISTORY_FIELD_NAME, HISTORY_FIELD_BEFORE_NAME);
-        if (s == STATUS_OK)
-            h->before = (history_base){true, h->field.sequence, h->field.cursor, h->field.bytes};
+        if (s == STATUS_OK) {
+            h->before = (history_base){true, h->field.sequence, h->field.cursor};
+            h->before_bytes = h->field_bytes;
+        }
     }
     if (s != STATUS_OK)
         return s;
-    h->field = (history_base){false, h->writing.sequence, h->writing.cursor, h->written};
+    h->field = (history_base){false, h->writing.sequence, h->writing.cursor};
     s = store->rename(store->self, FIELD_TEMPORARY, HISTORY_FIELD_NAME);
     h->field.there = s == STATUS_OK;
+    h->field_bytes = h->written;
     return s;
+}
+
+static void field_placed(history *h)
+{
+    h->fields_owed -= h->fields_owed > 0;
+    h->wants_field = h->wants_field || h->fields_owed > 0;
+    h->spent = h->spent && h->fields_owed > 0;
+    h->field_missed = 0;
+    h->field_short = h->reserve_tried = false;
+}
+
+static void field_given_up(history *h, status why)
+{
+    tell(h, "the sculpture as a whole could not be written, its strokes are", why);
+    status s = h->store.remove(h->store.self, FIELD_TEMPORARY);
+    (void)s; /* the next one does it */
+    h->spent = false;
+    if (why != STATUS_NO_SPACE)
+        return;
+    h->wants_field = false;
+    h->field_missed = h->written;
+    h->field_short = true;
+    h->reserve_tried = false;
 }
 
 static void field_work(history *h)
@@ -265,8 +389,10 @@ static void field_work(history *h)
         return;
     free(h->writer);
     h->writer = NULL;
-    if (s != STATUS_OK)
-        tell(h, "the sculpture as a whole could not be written, its strokes are", s);
+    if (s == STATUS_OK)
+        field_placed(h);
+    else
+        field_given_up(h, s);
 }
 
 /* --- what can wait --- */
@@ -292,11 +418,28 @@ static bool files_work(history *h)
     return removed;
 }
 
+/* One slice of it. Where there is no room it takes undo's, as long as undo has more. */
+static bool reserve_work(history *h)
+{
+    bool done = false;
+    reserve_aim(h);
+    if (h->reserve_aim == 0)
+        return false;
+    const status s = reserve_grow(&h->reserve, h->reserve_aim, &done);
+    if ((s == STATUS_OK && !done) ||
+        (s == STATUS_NO_SPACE && h->ring.bytes > h->reserve.bytes && space_from_undo(h)))
+        return true;
+    h->reserve_aim = 0;
+    h->reserve_tried = s != STATUS_OK;
+    h->field_short = h->field_short && s != STATUS_OK;
+    return false;
+}
+
 bool history_work(history *h)
 {
     if (h->writer)
         field_work(h);
     else
-        return files_work(h);
+        return (h->reserve_aim == 0 && files_work(h)) || reserve_work(h);
     return true;
 }

@@ -42,7 +42,7 @@ void keeper_look(const history *h, keeper_facts *facts_out)
         .branches = tree_branches(&h->tree),
         .can_undo = history_can_undo(h),
         .can_redo = history_can_redo(h),
-        .wants_field = h->wants_field && !h->writer,
+        .wants_field = h->wants_field && !h->writer && h->medium == HISTORY_MEDIUM_GOOD, /* else it cannot begin */
         .room = history_room(h),
         .medium = h->medium,
         .trouble = h->trouble,

@@ -190,7 +190,7 @@ static status read_field(recovery *r, const char *name, history_base *base_out, 
         return STATUS_OK;
     if (s != STATUS_OK)
         return s;
-    *base_out = (history_base){true, facts.sequence, facts.cursor, size};
+    *base_out = (history_base){true, facts.sequence, facts.cursor};
     r->base = facts;
     *read_out = true;
     return STATUS_OK;
@@ -208,7 +208,7 @@ static status look_at_field(recovery *r, const char *name, history_base *base_ou
         tell(r, WEIGHT_NEWER, name, " was written by a newer version of this program");
     *base_out = (history_base){.there = s == STATUS_OK};
     if (s == STATUS_OK)
-        *base_out = (history_base){true, facts.sequence, facts.cursor, 0};
+        *base_out = (history_base){true, facts.sequence, facts.cursor};
     return s == STATUS_NEWER ? s : STATUS_OK;
 }
 
@@ -238,6 +238,13 @@ static bool bricks_are_sound(recovery *r, const found *f, byte_buffer *buffer)
     return ring_read_bricks(&r->h->ring, f->file, f->offset, &f->r, buffer) == STATUS_OK;
 }
 
+/* Checkpoints stand between strokes: a part of one that began before the base is of an earlier life, whose sync failed
+   and whose bytes came up all the same. */
+static bool goes_on(const record *r, const record *last)
+{
+    return follows(r, last) && (r->part == 0 || r->stroke == last->stroke);
+}
+
 /* Leaves only records up to the last whole one that follows on from the base. */
 static void cut_tail(recovery *r)
 {
@@ -247,7 +254,7 @@ static void cut_tail(recovery *r)
     while (kept < l->count && l->at[kept].r.sequence <= r->base.sequence)
         kept++;
     record last = {.sequence = r->base.sequence, .seal = r->base.seal};
-    for (size_t n = kept; n < l->count && follows(&l->at[n].r, &last) && bricks_are_sound(r, &l->at[n], &buffer); n++) {
+    for (size_t n = kept; n < l->count && goes_on(&l->at[n].r, &last) && bricks_are_sound(r, &l->at[n], &buffer); n++) {
         last = l->at[n].r;
         r->newest = last.use;
         if (last.marks & RECORD_WHOLE)

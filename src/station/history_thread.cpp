@@ -115,9 +115,11 @@ keeper_job *job_take(history_thread *t)
     return job;
 }
 
-void jobs_do(history_thread *t)
+/* Answers whether there were any. */
+bool jobs_do(history_thread *t)
 {
-    while (keeper_job *job = job_take(t)) {
+    bool any = false;
+    for (; keeper_job *job = job_take(t); any = true) {
         keeper_do(t->of, job);
         publish(t);
         if (job->kind == KEEPER_FIELD && t->of->writer)
@@ -125,6 +127,7 @@ void jobs_do(history_thread *t)
         else
             job_end(t, job);
     }
+    return any;
 }
 
 /* One slice of what can wait; answers whether there is more. */
@@ -142,13 +145,14 @@ bool work(history_thread *t)
 void run(history_thread *t)
 {
     for (;;) {
-        jobs_do(t);
-        const bool kept = history_keep(t->of) == STATUS_OK;
+        const bool any = jobs_do(t);
+        /* Between two slices of a checkpoint a full medium has become no roomier. */
+        const bool waits = !any && t->field && t->of->medium == HISTORY_MEDIUM_FULL;
+        const bool kept = !waits && history_keep(t->of) == STATUS_OK;
         publish(t);
-        if (work(t))
-            continue;
+        const bool more = work(t);
         std::unique_lock<std::mutex> lock(t->guard);
-        if (t->first)
+        if (t->first || (more && (t->field || !t->ends))) /* at the end only a checkpoint under way is waited for */
             continue;
         t->idle = true;
         t->progressed.notify_all();

@@ -70,7 +70,8 @@ std::string shelf_copy_files(const shelf_port &port, const std::string &from, ui
         return text;
     std::vector<std::string> files;
     const auto take = [](void *into, const char *name) {
-        if (name[0] != '.' && std::string_view(name) != SHELF_ABOUT_NAME)
+        const std::string_view file(name);
+        if (file[0] != '.' && file != SHELF_ABOUT_NAME && file != RESERVE_NAME)
             static_cast<std::vector<std::string> *>(into)->emplace_back(name);
     };
     text = sentence(from, "", source.list(source.self, take, &files));

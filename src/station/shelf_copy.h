@@ -4,7 +4,8 @@
  *          was at one moment.
  * Is not:  The making of the new piece, which decides when it is one (shelf.h).
  * Shape:   `from` and `to` are folders, `store` is that of `to`, open. Everything is synced at the end. Not copied are
- *          "about", which the new piece has of its own, and names that begin with a dot: what a cut left of a writing.
+ *          "about", which the new piece has of its own, the reserve (history/reserve.h), which is only space, and names
+ *          that begin with a dot: what a cut left of a writing.
  * Owner:   the still is the caller's, and only lent.
  * Errors:  a sentence with the file, empty when it is done; `to` then holds a part.
  * Cost:    every byte read and written.

@@ -44,18 +44,19 @@ void collect(void *self, check_weight weight, const char *file, uint64_t, const 
         static_cast<std::set<std::string> *>(self)->insert(file);
 }
 
-/* What lies beneath the checkpoint that closing wrote may go where it is damaged: strokes that cannot be undone. */
+/* What lies beneath the checkpoint that closing wrote may go where it is damaged: strokes that cannot be undone. The
+   reserve is nothing but space. */
 int write_copy(overlay_store *copy, const std::string &folder)
 {
     const byte_store from = overlay_store_port(copy);
-    std::set<std::string> damaged;
+    std::set<std::string> without = {RESERVE_NAME};
     check_facts facts;
     std::string text;
     byte_store to;
     store *made = store_open(folder, &to, &text);
-    status s = made ? sculpture_check(&from, collect, &damaged, &facts) : STATUS_IO;
+    status s = made ? sculpture_check(&from, collect, &without, &facts) : STATUS_IO;
     if (s == STATUS_OK)
-        s = overlay_store_copy(copy, damaged, to);
+        s = overlay_store_copy(copy, without, to);
     store_close(made);
     if (s != STATUS_OK)
         return complain(ARGUMENTS_EXIT_TROUBLE, made ? folder + ": " + status_text(s) : text);

@@ -117,8 +117,10 @@ history_settings settings_of(const arguments &a)
     history_settings s = HISTORY_SETTINGS_DEFAULT;
     s.strokes = static_cast<uint32_t>(a.ring);
     s.budget_bytes = static_cast<uint64_t>(a.budget_mb) << 20;
-    if (a.store.empty())
+    if (a.store.empty()) {
         s.file_bytes = SCRATCH_FILE_BYTES;
+        s.reserve_files = 0;
+    }
     return s;
 }
 

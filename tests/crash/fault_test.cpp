@@ -100,4 +100,59 @@ TEST(fault, full_at_every_size)
     }
 }
 
+/* Strokes, with all that can wait done between them, on a disk that has room for so many bytes more than it holds; the
+   power goes while it is full, the next start finds it so and goes on; then there is room again. */
+void fill_up(uint64_t n)
+{
+    enum { BEFORE = 6, WHILE_FULL = 14, STEP_BYTES = 3000, SLICES_MOST = 500 };
+    SCOPED_TRACE("room for " + std::to_string(n * STEP_BYTES));
+    const piece_ring limits = {40, RING_FILE_BYTES_MIN, 1000 * uint64_t{RING_FILE_BYTES_MIN}};
+    seeded chance{n + 1};
+    auto disk = std::make_unique<sim_disk>(n);
+    const auto rest = [](piece &p) {
+        int slices = 0;
+        for (bool more = true; more && slices < SLICES_MOST; slices++) {
+            (void)!history_keep(&p.h);
+            if (p.h.wants_field && !p.h.writer && p.h.medium == HISTORY_MEDIUM_GOOD)
+                (void)!history_field_begin(&p.h, &p.c);
+            more = history_work(&p.h) || (p.h.wants_field && p.h.medium == HISTORY_MEDIUM_GOOD);
+        }
+        ASSERT_LT(slices, SLICES_MOST) << "it never ends";
+    };
+    uint64_t kept = 0;
+    for (const bool full : {false, true, true, false}) {
+        piece p(disk->port(), limits);
+        crash_life_counted.recoveries++;
+        ASSERT_EQ(p.opened, STATUS_OK);
+        ASSERT_STREQ(p.finding.text, "");
+        ASSERT_GE(p.h.sequence, kept) << "what was kept is gone";
+        if (full && disk->most_bytes == UINT64_MAX)
+            disk->most_bytes = disk->held() + n * STEP_BYTES;
+        disk->most_bytes = full ? disk->most_bytes : UINT64_MAX;
+        int made = 0;
+        for (int step = 0; step < (full ? WHILE_FULL : BEFORE); step++) {
+            if (history_room(&p.h) == STATUS_OK) {
+                ASSERT_EQ(p.stretch(piece_stroke_random(chance, CORNERS, 5), true), STATUS_OK);
+                made++;
+            }
+            const uint64_t digest = p.digest();
+            ASSERT_NO_FATAL_FAILURE(rest(p));
+            ASSERT_EQ(p.digest(), digest);
+        }
+        ASSERT_EQ(disk->misuse, "");
+        ASSERT_EQ(p.h.kept, p.h.sequence) << "what fills it is our own undo, and there is a reserve";
+        ASSERT_EQ(made, full ? WHILE_FULL : BEFORE);
+        kept = p.h.kept;
+        auto left = disk->after_cut(n);
+        left->most_bytes = disk->most_bytes;
+        disk = std::move(left);
+    }
+}
+
+TEST(fault, full_at_every_level_and_over_two_starts)
+{
+    for (uint64_t n = 0; n < 120; n++)
+        ASSERT_NO_FATAL_FAILURE(fill_up(n));
+}
+
 } // namespace

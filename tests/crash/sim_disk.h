@@ -88,7 +88,7 @@ struct sim_disk {
     /* What is found when the power is back. */
     std::unique_ptr<sim_disk> after_cut(uint64_t seed) const;
     /* The process died and the machine did not: what is pending stays so. What a failed sync lost is not read any more:
-       the port asks the medium (platform/storage drops what the machine holds of a file before it reads it first). */
+       platform/storage drops what the machine holds of such a file (storage.c, lost_drop; medium_test shows it). */
     void new_process();
     uint64_t held() const;
 };

@@ -44,7 +44,7 @@ struct life {
     {
         require(clay_init(&c, BRICKS) == STATUS_OK);
         const history_settings settings = {1u + limits % 16, RING_FILE_BYTES_MIN,
-                                           uint64_t{RING_FILE_BYTES_MIN} * (1 + limits / 16), 1 << 20};
+                                           uint64_t{RING_FILE_BYTES_MIN} * (1 + limits / 16), 1 << 20, limits % 3u};
         opened = history_open(&h, store, &settings, 0.5, &c, &finding);
     }
     ~life()

@@ -25,7 +25,7 @@ constexpr double TOOL_STEPS_MAX = 8, REACH_STEPS_MAX = 10; /* larger ones cost t
 constexpr double TOOL_STEPS_ABSURD = 500;                  /* refused before a corner is looked at */
 constexpr uint64_t VISITED_MAX = 1000000;                  /* corners in one performance */
 constexpr uint32_t BRICKS = 60;
-constexpr history_settings settings = {3, RING_FILE_BYTES_MIN, 1 << 24, 1 << 24};
+constexpr history_settings settings = {3, RING_FILE_BYTES_MIN, 1 << 24, 1 << 24, 4};
 
 void require(bool truth)
 {

@@ -23,7 +23,7 @@ namespace {
 
 enum { BRICKS = 2500, RING = 12, REACH = 18 };
 /* Branches that were left take room in it too. */
-constexpr history_settings small_ring = {6 * RING, 1 << 16, 1 << 26, 1 << 24};
+constexpr history_settings small_ring = {6 * RING, 1 << 16, 1 << 26, 1 << 24, 4};
 
 struct studio {
     std::unique_ptr<sculpture> s = std::make_unique<sculpture>();

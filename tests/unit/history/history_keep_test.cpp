@@ -334,48 +334,6 @@ TEST(history_keep, read_that_fails_moves_nothing_and_forgets_nothing)
     EXPECT_EQ(piece_steps_undo_all(p, digests), 3u);
 }
 
-/* --- a store that is full --- */
-
-TEST(history_keep, full_medium_reaches_less_far_then_refuses_then_goes_on)
-{
-    memory_store m;
-    piece p(m.port());
-    std::vector<uint64_t> digests;
-    piece_steps_up_to(p, digests, 1, 8);
-    for (int n = 0; n < 2; n++)
-        ASSERT_EQ(p.field(), STATUS_OK);
-    m.most_bytes = m.held(); /* from here on nothing grows, and no checkpoint can be written */
-    int n = 9;
-    for (; history_room(&p.h) == STATUS_OK; n++) {
-        ASSERT_LT(n, 40);
-        const status s = p.stroke(piece_stroke_numbered(n));
-        digests.push_back(p.digest());
-        ASSERT_EQ(s, history_room(&p.h) == STATUS_OK ? STATUS_OK : STATUS_NO_SPACE);
-        EXPECT_LE(p.h.tree.count, 10u) << "nine files, and what is held";
-    }
-    EXPECT_EQ(history_room(&p.h), STATUS_NO_SPACE);
-    EXPECT_GE(n, 9 + 7) << "the oldest made room first, down to one";
-    EXPECT_NE(p.h.trouble.text[0], '\0');
-    EXPECT_GT(p.h.held_bytes, 0u);
-    const uint64_t newest = p.h.tree.cursor, kept = p.h.kept;
-    EXPECT_EQ(history_keep(&p.h), STATUS_NO_SPACE);
-    {
-        memory_store copy;
-        copy.files = m.files;
-        piece q(copy.port());
-        EXPECT_STREQ(q.finding.text, "");
-        EXPECT_EQ(q.h.sequence, kept) << "what was kept stays so";
-    }
-    m.most_bytes = UINT64_MAX;
-    ASSERT_EQ(p.keep(), STATUS_OK);
-    EXPECT_EQ(history_room(&p.h), STATUS_OK);
-    EXPECT_EQ(p.h.tree.cursor, newest) << "what was put stayed put";
-    EXPECT_EQ(p.h.held_bytes, 0u);
-    piece_steps_reopen(p, m);
-    EXPECT_GE(piece_steps_undo_all(p, digests), 7u);
-    EXPECT_EQ(m.misuse, "");
-}
-
 /* --- files that are damaged while history is open --- */
 
 TEST(history_keep, damaged_undo_file_is_told_once_and_ends_history_there)

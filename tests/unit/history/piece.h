@@ -135,6 +135,7 @@ struct piece_ring {
     uint32_t strokes = HISTORY_STROKES_DEFAULT;
     uint64_t file_bytes = RING_FILE_BYTES_MIN;
     uint64_t budget_bytes = uint64_t{RING_FILE_BYTES_MIN} * 1000;
+    uint32_t reserve_files = HISTORY_RESERVE_FILES_DEFAULT;
 };
 
 /* Clay with its history on some store, which does everything at once that a keeper does: keeps, and writes a checkpoint
@@ -150,7 +151,7 @@ struct piece {
     {
         EXPECT_EQ(clay_init(&c, bricks), STATUS_OK);
         const history_settings settings = {limits.strokes, limits.file_bytes, limits.budget_bytes,
-                                           HISTORY_HELD_BYTES_DEFAULT};
+                                           HISTORY_HELD_BYTES_DEFAULT, limits.reserve_files};
         opened = history_open(&h, store, &settings, 0.5, &c, &finding);
     }
     ~piece()

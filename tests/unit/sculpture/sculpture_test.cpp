@@ -22,7 +22,7 @@ sculpture_dab dab_at(double x, double y, double z, double radius, double rate = 
     return {{{x, y, z}, {{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, rate, seconds};
 }
 
-constexpr history_settings small_ring = {20, 1 << 16, 1 << 24, 1 << 24};
+constexpr history_settings small_ring = {20, 1 << 16, 1 << 24, 1 << 24, 4};
 
 class sculpture_door : public testing::Test {
 protected:
@@ -91,7 +91,7 @@ TEST_F(sculpture_door, opens_only_with_settings_that_make_sense)
     EXPECT_EQ(sculpture_open(s.get(), nullptr, CAPACITY_BRICKS + 1, nullptr, 1, &finding), STATUS_BAD_PARAMETER);
     const byte_store store = disk.port();
     for (const uint32_t strokes : {0u, HISTORY_STROKES_MAX + 1u}) {
-        const history_settings wrong = {strokes, 1 << 16, 1 << 24, 1 << 24};
+        const history_settings wrong = {strokes, 1 << 16, 1 << 24, 1 << 24, 4};
         EXPECT_EQ(sculpture_open(s.get(), &store, 10, &wrong, 1, &finding), STATUS_BAD_PARAMETER);
     }
 }

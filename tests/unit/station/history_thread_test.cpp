@@ -74,7 +74,7 @@ struct gated_store {
     }
 };
 
-constexpr history_settings settings = {40, 1 << 16, 1 << 24, 1 << 24};
+constexpr history_settings settings = {40, 1 << 16, 1 << 24, 1 << 24, 4};
 
 class beside : public testing::Test {
 protected:

@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr history_settings few = {10, 1 << 16, 1 << 24, 1 << 24}, none = {0, 1 << 16, 1 << 24, 1 << 24};
+constexpr history_settings few = {10, 1 << 16, 1 << 24, 1 << 24, 4}, none = {0, 1 << 16, 1 << 24, 1 << 24, 4};
 
 class opened_elsewhere : public testing::Test {
 protected:

@@ -142,7 +142,7 @@ TEST(rehearsal, piece_with_a_crashing_stroke_opens_before_it)
 {
     memory_store disk;
     byte_store port = disk.port();
-    constexpr history_settings few = {10, 1 << 16, 1 << 24, 1 << 24};
+    constexpr history_settings few = {10, 1 << 16, 1 << 24, 1 << 24, 0};
     history_finding finding;
     ellipsoid ball;
     std::vector<uint64_t> digests;

@@ -367,6 +367,17 @@ TEST_F(shelf_in_memory, copying_a_discarded_piece_does_not_make_room_of_it)
     EXPECT_EQ(disk.folders[shelf_folder(copy)]["undo-0000"].durable, LONG);
 }
 
+TEST_F(shelf_in_memory, a_copy_has_none_of_the_space_that_is_only_held)
+{
+    const int a = made("a");
+    int copy = 0;
+    auto &files = disk.folders[shelf_folder(a)];
+    files[RESERVE_NAME] = files["undo-0000"];
+    ASSERT_EQ(shelf_duplicate(&s, a, nullptr, {}, &copy), "");
+    EXPECT_EQ(disk.folders[shelf_folder(copy)].count(RESERVE_NAME), 0u);
+    EXPECT_EQ(disk.folders[shelf_folder(copy)].count("undo-0000"), 1u);
+}
+
 TEST_F(shelf_in_memory, a_piece_that_is_open_is_not_copied_by_its_files)
 {
     const int a = made("a");

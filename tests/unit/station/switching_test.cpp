@@ -17,7 +17,7 @@
 
 namespace {
 
-constexpr history_settings FEW = {10, 1 << 16, 1 << 24, 1 << 24};
+constexpr history_settings FEW = {10, 1 << 16, 1 << 24, 1 << 24, 4};
 
 /* Calls about one folder wait here. */
 struct barrier {
@@ -212,7 +212,7 @@ TEST_F(switching_in_memory, what_cannot_be_opened_leaves_the_table_as_it_is)
 TEST_F(switching_in_memory, a_piece_that_does_not_open_is_told_and_its_store_closed)
 {
     switching_wishes impossible;
-    impossible.settings = {0, 0, 0, 0};
+    impossible.settings = {0, 0, 0, 0, 0};
     switching *other = switching_open(disk.port(), impossible);
     switching_begin(other, 3);
     EXPECT_EQ(switching_end(other, &table).find("piece-0003: "), 0u);

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-failing_system_state failing_system = {SIZE_MAX, 0, 0, 0, 0, 0, 0, 0, 0};
+failing_system_state failing_system = {SIZE_MAX, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 
-void failing_system_reset() { failing_system = {SIZE_MAX, 0, 0, 0, 0, 0, 0, 0, 0}; }
+void failing_system_reset() { failing_system = {SIZE_MAX, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; }
 
 namespace {
 
@@ -90,3 +91,15 @@ extern "C" ssize_t write(int fd, const void *bytes, size_t n)
 
 extern "C" int fsync(int fd) { return sync_of(fd, SYS_fsync); }
 extern "C" int fdatasync(int fd) { return sync_of(fd, SYS_fdatasync); }
+
+extern "C" int sync_file_range(int fd, off64_t offset, off64_t bytes, unsigned flags)
+{
+    errno = failing_system.settle_error;
+    return errno != 0 ? -1 : static_cast<int>(syscall(SYS_sync_file_range, fd, offset, bytes, flags));
+}
+
+extern "C" int posix_fadvise64(int fd, off64_t offset, off64_t bytes, int advice)
+{
+    failing_system.drops += advice == POSIX_FADV_DONTNEED && offset == 0 && bytes == 0 && is_regular(fd);
+    return 0;
+}

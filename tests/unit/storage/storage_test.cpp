@@ -263,6 +263,31 @@ TEST_F(storage_on_disk, file_whose_sync_failed_is_written_no_more)
     EXPECT_EQ(on_disk("a"), "3");
 }
 
+TEST_F(storage_on_disk, what_the_machine_holds_of_a_failed_sync_is_dropped_at_once)
+{
+    ASSERT_EQ(put("a", "1"), 0);
+    ASSERT_EQ(storage_sync(&s, "a"), 0);
+    ASSERT_EQ(put("a", "2"), 0);
+    EXPECT_EQ(failing_system.drops, 0) << "what is sound is read from memory";
+    failing_system.sync_error = EIO;
+    EXPECT_EQ(storage_sync(&s, "a"), -EIO);
+    EXPECT_EQ(failing_system.drops, 1);
+}
+
+TEST_F(storage_on_disk, writing_that_failed_in_another_process_is_asked_for_when_a_file_is_opened)
+{
+    ASSERT_EQ(put("a", "1"), 0);
+    storage_close(&s);
+    ASSERT_EQ(storage_open(&s, path.c_str()), 0);
+    failing_system.settle_error = EIO;
+    EXPECT_EQ(got("a"), "1") << "as far as the medium has it, it is read";
+    EXPECT_EQ(failing_system.drops, 1);
+    EXPECT_EQ(got("a"), "1");
+    EXPECT_EQ(failing_system.drops, 1) << "once";
+    ASSERT_EQ(put("new", "1"), 0);
+    EXPECT_EQ(failing_system.drops, 1) << "nobody wrote to it before";
+}
+
 TEST_F(storage_on_disk, spoilt_file_can_be_replaced)
 {
     ASSERT_EQ(put("a", "1"), 0);

@@ -4,7 +4,6 @@
 #include "clay/digest.h"
 #include "clay/sieve_rows.h"
 #include "history/byte_order.h"
-#include "history/packing.h"
 #include "history/preamble.h"
 #include "history/record.h"
 #include "history/sentence.h"
@@ -56,7 +55,7 @@ static status flush(checkpoint_writer *w)
     if (w->used == 0)
         return STATUS_OK;
     uint8_t *b = w->packed;
-    const size_t stored = packing_pack(b + BLOCK_HEAD_BYTES, w->block, w->used);
+    const size_t stored = packing_pack(w->with, b + BLOCK_HEAD_BYTES, w->block, w->used);
     const size_t vouched = BLOCK_HEAD_BYTES + stored;
     byte_order_put_u32(b, (uint32_t)w->used);
     byte_order_put_u32(b + BLOCK_STORED_AT, (uint32_t)stored);
@@ -100,8 +99,8 @@ static size_t put_brick(checkpoint_writer *w, key at, const brick_page *p)
     return took;
 }
 
-void checkpoint_writer_begin(checkpoint_writer *w, const clay *c, const checkpoint_facts *facts, checkpoint_sink sink,
-                             void *self)
+void checkpoint_writer_begin(checkpoint_writer *w, const clay *c, const checkpoint_facts *facts, packing *with,
+                             checkpoint_sink sink, void *self)
 {
     checkpoint_facts f = *facts;
     brick_mask mask;
@@ -112,6 +111,7 @@ void checkpoint_writer_begin(checkpoint_writer *w, const clay *c, const checkpoi
     for (bool more = avl_first(&walk, &c->tree, &at, &id); more; more = avl_next(&walk, &at, &id))
         f.bricks += sieve_rows_stored(clay_brick(c, id)->page, &mask, c->rows) > 0;
     w->c = c;
+    w->with = with;
     w->sink = sink;
     w->self = self;
     w->used = 0;
@@ -139,8 +139,11 @@ status checkpoint_write(const clay *c, const checkpoint_facts *facts, checkpoint
 {
     checkpoint_writer w;
     bool done = false;
-    checkpoint_writer_begin(&w, c, facts, sink, self);
-    return checkpoint_writer_step(&w, SIZE_MAX, &done);
+    packing *with = packing_open();
+    checkpoint_writer_begin(&w, c, facts, with, sink, self);
+    status s = checkpoint_writer_step(&w, SIZE_MAX, &done);
+    packing_close(with);
+    return s;
 }
 
 /* --- reading --- */

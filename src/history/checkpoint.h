@@ -37,7 +37,7 @@
  * Errors:  STATUS_CORRUPT, STATUS_NEWER with the place and what was expected in `trouble`; STATUS_POOL_FULL when the
  *          clay's limit is below what the file holds; the clay is then untouched (reading goes into a clay of its own
  *          first). Hostile counts never allocate more than the bytes could hold.
- * Cost:    one pass through a block of 64 KiB, most of it packing (300 MB/s; unpacking 1 GB/s): a quarter of the
+ * Cost:    one pass through a block of 64 KiB, most of it packing (600 MB/s; unpacking 1.5 GB/s): a quarter of the
  *          field's bytes reach the medium. Reading holds the old clay and the new until the end.
  * Source:  000 section 2 ("an internal format which writes the whole field").
  */
@@ -45,6 +45,7 @@
 #define GLAISE_HISTORY_CHECKPOINT_H
 
 #include "clay/clay.h"
+#include "history/packing.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -87,6 +88,7 @@ typedef struct checkpoint_writer {
     key at;
     uint32_t id;
     bool more;
+    packing *with;
     checkpoint_sink sink;
     void *self;
     uint8_t header[CHECKPOINT_HEADER_BYTES];
@@ -97,8 +99,8 @@ typedef struct checkpoint_writer {
 } checkpoint_writer;
 
 /* facts->digest is clay_digest; bricks are counted here. O(bricks). */
-void checkpoint_writer_begin(checkpoint_writer *w, const clay *c, const checkpoint_facts *facts, checkpoint_sink sink,
-                             void *self);
+void checkpoint_writer_begin(checkpoint_writer *w, const clay *c, const checkpoint_facts *facts, packing *with,
+                             checkpoint_sink sink, void *self);
 /* Writes `bytes` of bricks or little more; *done_out after the last of them. */
 STATUS_CHECKED status checkpoint_writer_step(checkpoint_writer *w, size_t bytes, bool *done_out);
 /* All at once. */

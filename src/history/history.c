@@ -57,6 +57,7 @@ status history_open(history *h, byte_store store, const history_settings *settin
     *h = (history){.store = store, .settings = *settings, .step_mm = step_mm};
     if (!settings_are_good(settings, step_mm))
         return STATUS_BAD_PARAMETER;
+    h->packs = packing_open();
     status s = ring_open(&h->ring, &h->store);
     if (s == STATUS_OK)
         s = recovery_run(h, c, finding_out);
@@ -86,6 +87,8 @@ void history_close(history *h)
     h->held_first = h->held_last = NULL;
     free(h->writer);
     h->writer = NULL;
+    packing_close(h->packs);
+    h->packs = NULL;
     tree_finish(&h->tree);
     ring_close(&h->ring);
 }
@@ -132,14 +135,14 @@ static void layout_add(layout *l, history_held *held)
 }
 
 /* A record of the bricks in l->bricks, as it will lie on the medium. */
-static status layout_add_packed(layout *l, const record *r)
+static status layout_add_packed(layout *l, const record *r, packing *with)
 {
     const size_t room = sizeof(history_held) + RECORD_HEADER_BYTES;
     history_held *held = (history_held *)malloc(room + (size_t)r->bytes);
     if (!held)
         return STATUS_NO_MEMORY;
     held->r = *r;
-    record_pack(&held->r, (uint8_t *)held + room, l->bricks);
+    record_pack(&held->r, with, (uint8_t *)held + room, l->bricks);
     history_held *fits = (history_held *)realloc(held, room + (size_t)held->r.stored);
     held = fits ? fits : held;
     held->bytes = (uint8_t *)(held + 1);
@@ -161,7 +164,7 @@ static status lay_record(const history *h, const delta *d, lanes rows, uint32_t 
             l->digest += brick_digest(b->at, b->now, rows) - brick_digest(b->at, b->old, rows);
     }
     r.digest_after = l->digest;
-    return r.bricks > 0 ? layout_add_packed(l, &r) : STATUS_OK;
+    return r.bricks > 0 ? layout_add_packed(l, &r, h->packs) : STATUS_OK;
 }
 
 /* All of a delta. On failure there is nothing to free. */

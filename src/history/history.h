@@ -140,6 +140,7 @@ typedef struct history {
     uint64_t digest;         /* clay_digest after the last record that was put */
     uint64_t dab;            /* number of the next dab, as last put */
     double step_mm;
+    packing *packs;
     history_held *held_first, *held_last;
     uint64_t held_bytes;
     history_medium medium;

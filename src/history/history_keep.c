@@ -317,7 +317,7 @@ status history_field_begin(history *h, const clay *c)
     h->written = h->unsynced = 0;
     h->strokes_since = 0;
     h->put_since = 0;
-    checkpoint_writer_begin(h->writer, c, &h->writing, field_put, h);
+    checkpoint_writer_begin(h->writer, c, &h->writing, h->packs, field_put, h);
     return STATUS_OK;
 }
 

@@ -7,12 +7,16 @@
 
 #include <zstd.h>
 
-enum { LEVEL = 1 };
+/* Twice as fast as level 1, and a twentieth larger. */
+enum { LEVEL = -1 };
+
+packing *packing_open(void) { return (packing *)ZSTD_createCCtx(); }
+void packing_close(packing *p) { ZSTD_freeCCtx((ZSTD_CCtx *)p); }
 
 /* The bytes it took; 0 where that would not be fewer. */
-static size_t pack(uint8_t *to, const uint8_t *from, size_t n)
+static size_t pack(packing *p, uint8_t *to, const uint8_t *from, size_t n)
 {
-    const size_t took = n > 1 ? ZSTD_compress(to, n - 1, from, n, LEVEL) : 0;
+    const size_t took = p && n > 1 ? ZSTD_compressCCtx((ZSTD_CCtx *)p, to, n - 1, from, n, LEVEL) : 0;
     return ZSTD_isError(took) ? 0 : took;
 }
 
@@ -25,8 +29,12 @@ static status unpack(uint8_t *to, size_t n, const uint8_t *from, size_t packed)
 
 #else
 
-static size_t pack(uint8_t *to, const uint8_t *from, size_t n)
+packing *packing_open(void) { return NULL; }
+void packing_close(packing *p) { (void)p; }
+
+static size_t pack(packing *p, uint8_t *to, const uint8_t *from, size_t n)
 {
+    (void)p;
     (void)to;
     (void)from;
     (void)n;
@@ -44,9 +52,9 @@ static status unpack(uint8_t *to, size_t n, const uint8_t *from, size_t packed)
 
 #endif
 
-size_t packing_pack(uint8_t *to, const uint8_t *from, size_t n)
+size_t packing_pack(packing *p, uint8_t *to, const uint8_t *from, size_t n)
 {
-    const size_t took = pack(to, from, n);
+    const size_t took = pack(p, to, from, n);
     if (took > 0)
         return took;
     memcpy(to, from, n);

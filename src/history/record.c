@@ -4,7 +4,6 @@
 #include "clay/digest.h"
 #include "clay/sieve_rows.h"
 #include "history/byte_order.h"
-#include "history/packing.h"
 
 #include <math.h>
 
@@ -65,10 +64,10 @@ size_t record_put_brick(uint8_t *to, key at, const brick_page *old, const brick_
     return RECORD_BRICK_HEAD_BYTES + (size_t)corners * RECORD_CORNER_BYTES;
 }
 
-void record_pack(record *r, uint8_t *to, const uint8_t *bricks)
+void record_pack(record *r, packing *with, uint8_t *to, const uint8_t *bricks)
 {
     assert(r->bytes <= RECORD_PACKED_MOST);
-    r->stored = packing_pack(to, bricks, (size_t)r->bytes);
+    r->stored = packing_pack(with, to, bricks, (size_t)r->bytes);
 }
 
 void record_seal(record *r, uint8_t *header)

@@ -44,7 +44,7 @@
  *          Version 1 knew no packing: bytes 136..143 were 0. It is read, not written.
  * Owner:   the caller owns all bytes.
  * Errors:  STATUS_CORRUPT, STATUS_NEWER with the place and what was expected.
- * Cost:    8 bytes a changed corner and 80 a brick, packed to 40 % or so; 700 ns a brick, and as much for packing.
+ * Cost:    8 bytes a changed corner and 80 a brick, packed to 40 % or so; 700 ns a brick, and half as much for packing.
  * Source:  000 section 3.3. We differ: corners come brick by brick, with a mask in the place of one key each, and in
  *          the place of an old value and a new one stands their difference: half the bytes, and one way to apply them.
  */
@@ -52,6 +52,7 @@
 #define GLAISE_HISTORY_RECORD_H
 
 #include "clay/brick.h"
+#include "history/packing.h"
 #include "history/preamble.h"
 #include "lattice/lanes.h"
 
@@ -99,7 +100,7 @@ static inline uint64_t record_span(uint64_t stored)
    the bytes it took, 0 when there is none. NULL: not stored. */
 size_t record_put_brick(uint8_t *to, key at, const brick_page *old, const brick_page *now, lanes rows);
 /* Lays r->bytes of bricks down as they will lie on the medium, in no more than that, and fills `stored`. */
-void record_pack(record *r, uint8_t *to, const uint8_t *bricks);
+void record_pack(record *r, packing *with, uint8_t *to, const uint8_t *bricks);
 /* Fills check and seal, and the header; what follows it is in place. */
 void record_seal(record *r, uint8_t *header);
 

@@ -178,6 +178,8 @@ void spoil(byte_string &file, const uint8_t *bytes, size_t changes)
         file[static_cast<size_t>(bytes[0] << 8 | bytes[1]) % file.size()] ^= bytes[2];
 }
 
+packing *const packer = packing_open();
+
 void make_and_spoil(clay &c, const uint8_t *bytes, size_t size)
 {
     const size_t head = 1 + CHANGE_BYTES * CHANGES_MAX;
@@ -204,7 +206,7 @@ void make_and_spoil(clay &c, const uint8_t *bytes, size_t size)
     byte_string file(HEADER);
     file.insert(file.end(), bricks.begin(), bricks.end());
     if (bytes[0] & 64)
-        record_pack(&r, &file[HEADER], bricks.data());
+        record_pack(&r, packer, &file[HEADER], bricks.data());
     file.resize(HEADER + r.stored);
     record_seal(&r, file.data());
     require(read_record(c, file));

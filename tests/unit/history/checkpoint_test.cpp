@@ -281,11 +281,13 @@ TEST(checkpoint, written_bit_by_bit_it_is_the_same)
         bricks += corner.first > 0 ? 8 : 0;
     for (const size_t slice : {size_t{1}, size_t{5000}, size_t{16384}, size_t{100000}, SIZE_MAX}) {
         bytes_kept k;
+        packing *with = packing_open();
         auto w = std::make_unique<checkpoint_writer>();
-        checkpoint_writer_begin(w.get(), &p.c, &f, keep, &k);
+        checkpoint_writer_begin(w.get(), &p.c, &f, with, keep, &k);
         size_t steps = 0;
         for (bool done = false; !done; steps++)
             ASSERT_EQ(checkpoint_writer_step(w.get(), slice, &done), STATUS_OK);
+        packing_close(with);
         EXPECT_EQ(k.bytes, whole.bytes) << slice;
         EXPECT_LE(steps, 2 + bricks * 11 / slice) << "80 bytes a brick beside its corners, and there are few corners";
         EXPECT_GE(steps, 1 + bricks / (slice < SIZE_MAX / 2 ? slice + 4176 : SIZE_MAX)) << "or a brick more";
@@ -303,13 +305,15 @@ TEST(checkpoint, still_of_a_clay_that_goes_on_is_written_as_it_was)
     freeze still;
     ASSERT_EQ(freeze_begin(&still, &p.c), STATUS_OK);
     bytes_kept k;
+    packing *with = packing_open();
     auto w = std::make_unique<checkpoint_writer>();
-    checkpoint_writer_begin(w.get(), &still.still, &f, keep, &k);
+    checkpoint_writer_begin(w.get(), &still.still, &f, with, keep, &k);
     for (bool done = false; !done;) {
         ASSERT_EQ(checkpoint_writer_step(w.get(), 5000, &done), STATUS_OK);
         ASSERT_EQ(piece_write(&p.c, piece_stroke_random(chance, 300, 20)), STATUS_OK);
     }
     freeze_end(&still);
+    packing_close(with);
     EXPECT_EQ(k.bytes, before.bytes);
     EXPECT_NE(written(&p.c).bytes, before.bytes);
 }

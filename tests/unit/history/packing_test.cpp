@@ -16,8 +16,10 @@ using byte_string = std::vector<uint8_t>;
 
 byte_string packed(const byte_string &plain)
 {
+    packing *p = packing_open();
     byte_string b(plain.size());
-    b.resize(packing_pack(b.data(), plain.data(), plain.size()));
+    b.resize(packing_pack(p, b.data(), plain.data(), plain.size()));
+    packing_close(p);
     return b;
 }
 
@@ -52,9 +54,17 @@ TEST(packing, everything_comes_back)
 TEST(packing, nothing_is_nothing)
 {
     uint8_t none = 9;
-    EXPECT_EQ(packing_pack(&none, &none, 0), 0u);
+    EXPECT_EQ(packing_pack(nullptr, &none, &none, 0), 0u);
     EXPECT_EQ(packing_unpack(&none, 0, &none, 0), STATUS_OK);
     EXPECT_EQ(none, 9);
+}
+
+TEST(packing, without_room_it_packs_nothing)
+{
+    const byte_string plain(500);
+    byte_string b(500, 1);
+    EXPECT_EQ(packing_pack(nullptr, b.data(), plain.data(), plain.size()), plain.size());
+    EXPECT_EQ(b, plain);
 }
 
 TEST(packing, another_size_than_it_was_is_refused)

@@ -270,7 +270,9 @@ byte_string packed()
     const byte_string plain = laid();
     record r = facts;
     byte_string b(plain.size());
-    record_pack(&r, &b[HEADER], &plain[HEADER]);
+    packing *with = packing_open();
+    record_pack(&r, with, &b[HEADER], &plain[HEADER]);
+    packing_close(with);
     EXPECT_LT(r.stored, r.bytes) << "so much of nothing can be packed";
     b.resize(HEADER + r.stored);
     record_seal(&r, b.data());

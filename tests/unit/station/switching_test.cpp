@@ -238,6 +238,7 @@ TEST_F(switching_in_memory, what_closing_could_not_do_is_told)
         text = switching_trouble_take(going);
     EXPECT_EQ(text.find("piece-0001: "), 0u) << text;
     EXPECT_EQ(switching_trouble_take(going), "");
+    const std::lock_guard<std::mutex> lock(disk.guard); /* the other piece's thread is at work */
     disk.dead = false;
 }
 

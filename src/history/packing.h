@@ -2,7 +2,7 @@
 /*
  * What:    Bytes made fewer before they go to the medium, and back: zstd, fast before small, every piece by itself.
  * Is not:  A checksum: whoever lays pieces down vouches for what lies there (record.h, checkpoint.h).
- * Shape:   one zstd frame, which names the size that it unpacks to.
+ * Shape:   one zstd frame; whoever unpacks knows how many bytes it had.
  * Owner:   the caller owns all bytes; a packing is room to work in, which one thread at a time may use.
  * Errors:  STATUS_CORRUPT: not what was packed. STATUS_NEWER where the program was built without zstd
  *          (GLAISE_PACKING=OFF, for machines whose libraries are not at hand): it packs nothing.

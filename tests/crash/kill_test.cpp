@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: the real program on real files, killed at any instant, comes back exactly: in a state that the uninterrupted
-   run
- *       had, never before the last one it had acknowledged.
+ *       run had, never before the last one it had acknowledged.
  * Method: a tape of strokes, undos, redos and forks on a small ring, so that undo-files are written anew and
  *         checkpoints come often. One run to the end says how every stroke looks after each of its dabs. Then the same
  *         tape again and again, killed (SIGKILL) at a seeded instant between its start and its end; `glaise check` and

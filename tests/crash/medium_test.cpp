@@ -6,20 +6,18 @@
  *         device, whose image lies on a tmpfs that is too small for it, so that writing fails beneath a sync. What
  *         `glaise check` finds is compared with what --kept said and with the end that --stats tells. Without the right
  *         to mount the tests are skipped and say so. */
+#include "tests/crash/real_life.h"
+
 #include <gtest/gtest.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <sched.h>
 #include <sstream>
 #include <sys/mount.h>
-#include <sys/wait.h>
-#include <vector>
 #include <unistd.h>
 
 namespace {
@@ -27,14 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t MIB = 1 << 20;
-
-std::string text_of(const fs::path &path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void put(const fs::path &path, const std::string &text) { std::ofstream(path, std::ios::binary) << text; }
 
 /* Every stroke in another place and colour; one in ten is taken back and made again. */
 std::string tape_text(int strokes, int first)
@@ -53,23 +43,6 @@ std::string tape_text(int strokes, int first)
     return tape.str();
 }
 
-/* What stands behind a word that begins a line; the last of such lines. */
-std::vector<std::string> words_of(const std::string &text, const std::string &key)
-{
-    std::vector<std::string> found;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string word;
-        if (!(words >> word) || word != key)
-            continue;
-        found.clear();
-        while (words >> word)
-            found.push_back(word.substr(0, word.find(',')));
-    }
-    return found;
-}
-
 uint64_t times_in(const std::string &text, const std::string &what)
 {
     uint64_t n = 0;
@@ -86,8 +59,8 @@ std::string alone()
         if (unshare(user == 0 ? CLONE_NEWNS : CLONE_NEWNS | CLONE_NEWUSER) != 0)
             return std::string("unshare: ") + std::strerror(errno);
         if (user != 0) {
-            put("/proc/self/setgroups", "deny");
-            put("/proc/self/uid_map", "0 " + std::to_string(user) + " 1\n");
+            real_life_put("/proc/self/setgroups", "deny");
+            real_life_put("/proc/self/uid_map", "0 " + std::to_string(user) + " 1\n");
         }
         if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0)
             return std::string("mount: ") + std::strerror(errno);
@@ -100,8 +73,8 @@ std::string alone()
 struct outcome {
     int exit = 0;
     std::string err, end_digest;
-    uint64_t kept_record = 0, refused = 0;
-    std::string kept_digest;
+    uint64_t refused = 0;
+    real_life_kept kept; /* the last that was acknowledged */
 };
 
 /* What lies on the medium. */
@@ -111,7 +84,7 @@ struct found {
     std::string digest, text;
 };
 
-class medium : public testing::Test {
+class medium : public testing::Test, public real_life {
 protected:
     void SetUp() override
     {
@@ -121,6 +94,7 @@ protected:
         std::string name = (fs::temp_directory_path() / "glaise-medium-XXXXXX").string();
         ASSERT_NE(mkdtemp(name.data()), nullptr);
         base = name;
+        program = GLAISE_PROGRAM;
         fs::create_directory(base / "m");
         fs::create_directory(base / "beneath");
         store = base / "m" / "store";
@@ -145,7 +119,7 @@ protected:
         if (make) {
             if (getuid() != 0)
                 return "a loop device is root's";
-            put(image, "");
+            real_life_put(image, "");
             fs::resize_file(image, bytes);
             if (std::system(("mkfs.ext4 -q -F -O ^metadata_csum -J size=1 -E lazy_itable_init=0,nodiscard " + image +
                              " >/dev/null 2>&1").c_str()) != 0)
@@ -155,56 +129,32 @@ protected:
                    ? ""
                    : "no loop device could be mounted";
     }
-    int run(std::vector<std::string> words, const std::string &out)
-    {
-        const pid_t child = fork();
-        if (child == 0) {
-            dup2(open((base / out).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-            dup2(open((base / (out + ".err")).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-            std::vector<char *> argv = {const_cast<char *>("glaise")};
-            for (std::string &word : words)
-                argv.push_back(word.data());
-            argv.push_back(nullptr);
-            alarm(120); /* a run that never ends is a failure */
-            execv(GLAISE_PROGRAM, argv.data());
-            _exit(127);
-        }
-        int how = 0;
-        waitpid(child, &how, 0);
-        return WIFEXITED(how) ? WEXITSTATUS(how) : -WTERMSIG(how);
-    }
     outcome sculpt(int strokes, int first = 0)
     {
-        put(base / "tape", tape_text(strokes, first));
+        real_life_put(base / "tape", tape_text(strokes, first));
         outcome o;
         o.exit = run({"replay", (base / "tape").string(), "--store", store.string(), "--kept", "--ring", "200",
                       "--hands", "1", "--stats", (base / "stats").string()},
                      "out");
-        o.err = text_of(base / "out.err");
+        o.err = said("out.err");
         o.refused = times_in(o.err, "no stroke can begin: the storage is full");
-        const std::string stats = text_of(base / "stats"), key = "\"field_digest\": \"";
+        const std::string stats = said("stats"), key = "\"field_digest\": \"";
         const size_t at = stats.find(key);
         o.end_digest = at == std::string::npos ? "" : stats.substr(at + key.size(), 16);
-        const std::vector<std::string> kept = words_of(text_of(base / "out"), "kept");
-        if (kept.size() == 3) {
-            o.kept_record = std::stoull(kept[0]);
-            o.kept_digest = kept[2];
-        }
+        o.kept = real_life_last_kept(said("out"));
         return o;
     }
     found look()
     {
         found f;
         f.exit = run({"check", store.string()}, "check");
-        f.text = text_of(base / "check") + text_of(base / "check.err");
-        const auto record = words_of(f.text, "record"), stroke = words_of(f.text, "stroke"),
-                   strokes = words_of(f.text, "history"), digest = words_of(f.text, "digest");
-        if (record.empty() || stroke.empty() || strokes.empty() || digest.empty())
+        f.text = said("check") + said("check.err");
+        f.digest = real_life_value(f.text, "digest");
+        if (f.digest.empty())
             return f;
-        f.record = std::stoull(record[0]);
-        f.stroke = std::stoull(stroke[0]);
-        f.strokes = std::stoull(strokes[0]);
-        f.digest = digest[0];
+        f.record = std::stoull(real_life_value(f.text, "record"));
+        f.stroke = std::stoull(real_life_value(f.text, "stroke"));
+        f.strokes = std::stoull(real_life_value(f.text, "history"));
         return f;
     }
     uint64_t room() const { return fs::space(base / "m").available; }
@@ -215,16 +165,16 @@ protected:
         ASSERT_TRUE(o.exit == 0 || o.exit == 1) << o.exit << o.err;
         const found f = look();
         ASSERT_EQ(f.exit, 0) << f.text;
-        if (o.kept_record > 0) {
-            EXPECT_GE(f.record, o.kept_record) << "what was acknowledged is gone";
+        if (o.kept.record > 0) {
+            EXPECT_GE(f.record, o.kept.record) << "what was acknowledged is gone";
         }
         if (o.exit == 0) { /* then nothing was left in memory */
             EXPECT_EQ(f.digest, o.end_digest) << f.text << o.err;
-            EXPECT_EQ(o.kept_digest, o.end_digest);
+            EXPECT_EQ(o.kept.digest, o.end_digest);
             EXPECT_EQ(f.stroke + o.refused, static_cast<uint64_t>(strokes)) << o.err;
         } else {
             EXPECT_NE(o.err.find("full"), std::string::npos) << o.err;
-            EXPECT_EQ(f.digest, o.kept_digest) << f.text << o.err;
+            EXPECT_EQ(f.digest, o.kept.digest) << f.text << o.err;
         }
         *found_out = f;
     }
@@ -242,7 +192,7 @@ protected:
                     static_cast<unsigned long long>(o.refused), static_cast<unsigned long long>(room() >> 10));
     }
 
-    fs::path base, store;
+    fs::path store;
 };
 
 TEST_F(medium, full_of_our_own_undo_goes_on)
@@ -276,11 +226,11 @@ TEST_F(medium, every_size_keeps_or_refuses)
 TEST_F(medium, full_of_other_things_refuses_and_goes_on_when_they_are_gone)
 {
     ASSERT_TRUE(tmpfs("m", 24 * MIB)) << std::strerror(errno);
-    put(base / "m" / "ballast", std::string(24 * MIB - 200000, 'x'));
+    real_life_put(base / "m" / "ballast", std::string(24 * MIB - 200000, 'x'));
     found f;
     const outcome o = sculpt(20);
     ASSERT_NO_FATAL_FAILURE(all_is_kept_or_refused(o, 20, &f));
-    EXPECT_TRUE(o.exit == 1 || o.kept_digest == o.end_digest) << "all could be kept, or it says that it could not";
+    EXPECT_TRUE(o.exit == 1 || o.kept.digest == o.end_digest) << "all could be kept, or it says that it could not";
     EXPECT_GT(o.refused, 5u) << o.err;
     EXPECT_GE(f.stroke, 1u);
     fs::remove(base / "m" / "ballast");
@@ -304,7 +254,7 @@ TEST_F(medium, read_only_from_the_beginning_keeps_all_in_memory)
     EXPECT_NE(o.err.find("what was made last is only in memory"), std::string::npos) << o.err;
     EXPECT_NE(o.end_digest, before.digest) << "the strokes were made";
     EXPECT_EQ(o.end_digest.size(), 16u);
-    EXPECT_EQ(o.kept_record, 0u) << "nothing is acknowledged";
+    EXPECT_EQ(o.kept.record, 0u) << "nothing is acknowledged";
     const found after = look();
     EXPECT_EQ(after.exit, 0) << after.text;
     EXPECT_EQ(after.digest, before.digest);
@@ -321,18 +271,18 @@ TEST_F(medium, failing_beneath_a_sync_acknowledges_nothing_that_is_not_there)
     const outcome o = sculpt(30);
     EXPECT_EQ(o.exit, 1) << o.err;
     EXPECT_NE(o.err.find("what was made last is only in memory"), std::string::npos) << o.err;
-    EXPECT_GT(o.kept_record, 0u);
+    EXPECT_GT(o.kept.record, 0u);
     const found warm = look(); /* through what the machine holds of it */
     ASSERT_NE(warm.digest, "") << warm.text;
-    EXPECT_GE(warm.record, o.kept_record) << warm.text;
+    EXPECT_GE(warm.record, o.kept.record) << warm.text;
     ASSERT_EQ(umount2((base / "m").c_str(), 0), 0) << std::strerror(errno);
     ASSERT_TRUE(tmpfs("beneath", 100 * MIB, true));
     ASSERT_EQ(ext4(0, false), "");
     const found cold = look();
-    EXPECT_GE(cold.record, o.kept_record) << "acknowledged, and not there" << cold.text;
+    EXPECT_GE(cold.record, o.kept.record) << "acknowledged, and not there" << cold.text;
     EXPECT_EQ(cold.record, warm.record) << "the machine showed what the medium does not have";
     EXPECT_EQ(cold.digest, warm.digest);
-    std::printf("acknowledged %llu, on the medium %llu\n", static_cast<unsigned long long>(o.kept_record),
+    std::printf("acknowledged %llu, on the medium %llu\n", static_cast<unsigned long long>(o.kept.record),
                 static_cast<unsigned long long>(cold.record));
     EXPECT_EQ(sculpt(5, 30).exit, 0) << "and it goes on";
 }

@@ -155,6 +155,29 @@ TEST(history_keep, checkpoint_is_due_after_a_quarter_of_the_strokes)
     EXPECT_FALSE(p.h.wants_field);
 }
 
+/* Strokes of a corner beside a field of many: writing that anew for ten of them would be most of what is written. */
+TEST(history_keep, large_piece_waits_for_more_strokes_but_not_for_ever)
+{
+    memory_store m;
+    piece p(m.port(), piece_steps_ring(40));
+    ASSERT_EQ(p.stretch(piece_steps_large(60, 1), true), STATUS_OK);
+    ASSERT_EQ(p.field(), STATUS_OK);
+    for (int n = 1; n <= 40; n++) {
+        ASSERT_EQ(p.stretch(piece_stroke_numbered(n), true), STATUS_OK);
+        EXPECT_FALSE(p.h.wants_field) << n;
+    }
+    ASSERT_LT(p.h.put_since, p.h.field_bytes / 2);
+    ASSERT_EQ(p.stretch(piece_stroke_numbered(41), true), STATUS_OK);
+    EXPECT_TRUE(p.h.wants_field);
+    ASSERT_EQ(p.field(), STATUS_OK);
+    for (int n = 42; n <= 51; n++)
+        ASSERT_EQ(p.stretch(piece_stroke_numbered(n), true), STATUS_OK);
+    EXPECT_FALSE(p.h.wants_field);
+    ASSERT_EQ(p.stretch(piece_steps_large(40, 9000), true), STATUS_OK);
+    ASSERT_GT(p.h.put_since, p.h.field_bytes / 2);
+    EXPECT_TRUE(p.h.wants_field) << "now it pays";
+}
+
 TEST(history_keep, checkpoint_is_due_after_an_eighth_of_the_budget)
 {
     memory_store m;

@@ -95,6 +95,40 @@ TEST(history_full, undo_reaches_less_far_and_sculpting_goes_on_for_ever)
     EXPECT_EQ(m.misuse, "");
 }
 
+/* Nothing is written between strokes, as when somebody is faster than checkpoints are. */
+TEST(history_full, what_cannot_be_kept_is_refused_before_it_is_made)
+{
+    constexpr uint64_t file = 4 * PIECE_STEPS_FILE_BYTES;
+    memory_store m;
+    piece p(m.port(), {40, file, file * 1000, 4});
+    std::vector<uint64_t> digests = {p.digest()};
+    for (int n = 1; n <= 8; n++) {
+        ASSERT_TRUE(one_more(p, digests, piece_stroke_numbered(n)));
+        ASSERT_NO_FATAL_FAILURE(rest(p));
+    }
+    m.most_bytes = m.held();
+    int n = 9;
+    for (; one_more(p, digests, piece_stroke_numbered(n)); n++) {
+        ASSERT_LT(n, 30);
+        ASSERT_EQ(history_keep(&p.h), STATUS_OK) << n;
+    }
+    EXPECT_GT(n, 10) << "the reserve has room for some";
+    EXPECT_EQ(p.h.medium, HISTORY_MEDIUM_GOOD);
+    EXPECT_EQ(p.h.held_bytes, 0u) << "all that was made is kept";
+    ASSERT_NO_FATAL_FAILURE(rest(p));
+    EXPECT_EQ(history_room(&p.h), STATUS_OK) << "undo reaches less far, and it goes on";
+    m.most_bytes = UINT64_MAX;
+    for (int more = 0; more < 160; more++) {
+        ASSERT_TRUE(one_more(p, digests, piece_stroke_numbered(n + more)));
+        ASSERT_NO_FATAL_FAILURE(rest(p));
+    }
+    for (const auto &[name, bytes] : m.files)
+        if (name.starts_with("undo-")) {
+            EXPECT_EQ(bytes.size(), file) << name << ": of those that the reserve gave, which are small, none is left";
+        }
+    EXPECT_EQ(m.misuse, "");
+}
+
 TEST(history_full, nothing_to_forget_and_nothing_in_reserve_refuses_until_there_is_room)
 {
     memory_store m;
@@ -196,6 +230,9 @@ TEST(history_full, every_size_of_the_medium_ends_in_rest_with_nothing_lost)
                             large ? piece_steps_large(6, 9u * static_cast<uint32_t>(n)) : piece_stroke_numbered(n));
             ASSERT_NO_FATAL_FAILURE(rest(p));
             ASSERT_TRUE(p.h.medium == HISTORY_MEDIUM_GOOD || history_room(&p.h) == STATUS_NO_SPACE);
+            const uint64_t calls = m.calls;
+            ASSERT_NO_FATAL_FAILURE(rest(p));
+            ASSERT_LE(m.calls, calls + (p.h.medium == HISTORY_MEDIUM_GOOD ? 3u : 6u)) << "an undo-file is tried to be made";
         }
         m.most_bytes = UINT64_MAX;
         ASSERT_NO_FATAL_FAILURE(rest(p));

@@ -326,6 +326,43 @@ TEST(recovery, records_up_to_the_last_whole_one_count)
     EXPECT_EQ(p.h.sequence, 1u);
 }
 
+/* Two parts of a stroke, of which the second was written and not kept. Whoever opened without it made a checkpoint,
+   and then it comes up all the same. */
+TEST(recovery, part_of_a_stroke_behind_a_checkpoint_is_of_an_earlier_life)
+{
+    memory_store m;
+    std::vector<uint8_t> later;
+    std::string name;
+    uint64_t before = 0;
+    {
+        memory_store earlier;
+        piece p(earlier.port(), recovery_scene_ring(100));
+        ASSERT_EQ(p.stroke(piece_stroke_numbered(1)), STATUS_OK);
+        ASSERT_EQ(p.stretch(piece_stroke_numbered(2), false), STATUS_OK);
+        ASSERT_EQ(p.keep(), STATUS_OK);
+        before = p.digest();
+        m.files = earlier.files;
+        ASSERT_EQ(p.stretch(piece_stroke_numbered(3), true), STATUS_OK);
+        ASSERT_EQ(p.keep(), STATUS_OK);
+        name = ring_name_of(p.h.ring.current).text;
+        later = earlier.files.at(name);
+    }
+    {
+        piece p(m.port(), recovery_scene_ring(100));
+        ASSERT_EQ(p.digest(), before);
+        ASSERT_EQ(p.field(), STATUS_OK);
+    }
+    ASSERT_NE(m.files.at(name), later);
+    m.files.at(name) = later;
+    piece p(m.port(), recovery_scene_ring(100));
+    ASSERT_EQ(p.opened, STATUS_OK);
+    EXPECT_EQ(p.digest(), before);
+    EXPECT_EQ(p.h.tree.cursor, 2u);
+    ASSERT_EQ(p.undo(), STATUS_OK);
+    ASSERT_EQ(p.redo(), STATUS_OK);
+    EXPECT_EQ(p.digest(), before);
+}
+
 /* --- 5: the way --- */
 
 TEST(recovery, stroke_that_cannot_be_gone_over_ends_at_the_latest_that_can_be_reached)

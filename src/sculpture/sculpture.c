@@ -5,6 +5,7 @@
 #include "history/stored_file.h"
 #include "sculpture/keeping.h"
 
+#include <math.h>
 #include <string.h>
 
 /* --- opening and closing --- */
@@ -294,6 +295,33 @@ status sculpture_check(const byte_store *store, check_teller tell, void *self, c
 uint64_t sculpture_digest_of(double step_mm, uint64_t digest)
 {
     return digest_bytes(&step_mm, sizeof step_mm, digest);
+}
+
+static void bounds_take(const patch *p, double step_mm, double lo[3], double hi[3])
+{
+    const int32_t at[3] = {p->at.i, p->at.j, p->at.k};
+    for (uint32_t n = 0; n < p->vertex_count; n++) {
+        for (int a = 0; a < 3; a++) {
+            const double mm = step_mm * ((double)at[a] * BRICK_EDGE + (double)p->vertices[n].position[a]);
+            lo[a] = mm < lo[a] ? mm : lo[a];
+            hi[a] = mm > hi[a] ? mm : hi[a];
+        }
+    }
+}
+
+bool sculpture_bounds_mm(const sculpture *s, double lo_out[3], double hi_out[3])
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t slot = 0; slot < surface_slots(&s->surface); slot++) {
+        const patch *p = surface_patch(&s->surface, slot);
+        if (p)
+            bounds_take(p, s->step_mm, lo, hi);
+    }
+    if (!(lo[0] <= hi[0]))
+        return false;
+    memcpy(lo_out, lo, sizeof lo);
+    memcpy(hi_out, hi, sizeof hi);
+    return true;
 }
 
 uint64_t sculpture_digest(const sculpture *s) { return sculpture_digest_of(s->step_mm, clay_digest(&s->clay)); }

@@ -135,6 +135,9 @@ STATUS_CHECKED status sculpture_set_aside(const byte_store *store, const char *f
 STATUS_CHECKED status sculpture_read(sculpture *s, checkpoint_source source, void *self,
                                      checkpoint_trouble *trouble_out);
 
+/* The box that just holds the surface, mm; false when there is none. Looks at every vertex. */
+bool sculpture_bounds_mm(const sculpture *s, double lo_out[3], double hi_out[3]);
+
 /* Field and step. The mesh's own is surface_digest(&s->surface). */
 uint64_t sculpture_digest(const sculpture *s);
 /* The same for a clay_digest that is known (keeper_facts). */

@@ -29,6 +29,44 @@ enum snapshot_environment {
     SNAPSHOT_ENVIRONMENT_CLEARCOAT, /* a layer that grows towards grazing angles */
 };
 
+/* What surrounds the piece: its light falls on the clay and is mirrored in it. */
+enum snapshot_scenery {
+    SNAPSHOT_SCENERY_STUDIO,
+    SNAPSHOT_SCENERY_WINDOW,
+    SNAPSHOT_SCENERY_STRIPS, /* for reading curvature */
+    SNAPSHOT_SCENERY_NIGHT,
+    SNAPSHOT_SCENERY_OWN, /* a picture that somebody brought */
+    SNAPSHOT_SCENERIES,
+};
+
+enum snapshot_look {
+    SNAPSHOT_LOOK_CLAY,       /* physically based: the scenery's light and the lights */
+    SNAPSHOT_LOOK_PLAIN,      /* the papers': lights alone */
+    SNAPSHOT_LOOK_SILHOUETTE, /* the outline alone */
+    SNAPSHOT_LOOK_RAKING,     /* one light that grazes the clay: lumps throw shadows */
+};
+
+/* 000 figure 5. */
+enum snapshot_structure {
+    SNAPSHOT_STRUCTURE_SURFACE,
+    SNAPSHOT_STRUCTURE_STORED,   /* all cubes that have a corner stored */
+    SNAPSHOT_STRUCTURE_CROSSING, /* the cubes that the surface passes through */
+};
+
+enum snapshot_layout { /* of the two eyes' pictures in one */
+    SNAPSHOT_LAYOUT_MONO,
+    SNAPSHOT_LAYOUT_SIDE_HALF, /* left and right, each half as wide */
+    SNAPSHOT_LAYOUT_SIDE_FULL, /* left and right, twice as wide together */
+    SNAPSHOT_LAYOUT_TOP_HALF,
+    SNAPSHOT_LAYOUT_TOP_FULL,
+    SNAPSHOT_LAYOUT_ROWS,    /* interleaved */
+    SNAPSHOT_LAYOUT_COLUMNS, /* interleaved */
+    SNAPSHOT_LAYOUT_CHECKER,
+    SNAPSHOT_LAYOUT_ANAGLYPH, /* red for the left eye, cyan for the right */
+    SNAPSHOT_LAYOUT_PACKED,   /* HDMI 1.4 frame packing: one above the other, a gap between */
+    SNAPSHOT_LAYOUTS,
+};
+
 /* Is what was made on the medium? */
 enum snapshot_keeping { SNAPSHOT_KEEPING_ALL, SNAPSHOT_KEEPING_UNDER_WAY, SNAPSHOT_KEEPING_FAILS };
 
@@ -48,6 +86,21 @@ struct snapshot_material {
     float ambient = 0.25f;
 };
 
+struct snapshot_effects {
+    float occlusion = 0.6f; /* how much darker hollows are, 0..1 */
+    bool shadows = true;    /* of the first light that is lit */
+    bool floor = true;      /* the turntable, at the workspace's bottom */
+    float blur = 0;         /* depth of field: the lens's width, as a part of its widest; 0: all is sharp */
+    bool mirrored = false;  /* left for right */
+};
+
+struct snapshot_eyes {
+    snapshot_layout layout = SNAPSHOT_LAYOUT_MONO;
+    bool swapped = false;           /* the right eye comes first: on the left, on top, in even rows, in red */
+    double separation = 1.0 / 30;   /* of the plane's distance */
+    double plane_mm = 200;          /* from the eyes to the plane of zero parallax */
+};
+
 struct snapshot {
     std::array<double, 4> scene_turn{1, 0, 0, 0}; /* unit quaternion w, x, y, z */
     std::array<double, 3> scene_shift{};          /* mm, after the turn */
@@ -57,6 +110,11 @@ struct snapshot {
 
     std::array<snapshot_light, SNAPSHOT_LIGHTS> lights{};
     snapshot_material material;
+    snapshot_look look = SNAPSHOT_LOOK_PLAIN;
+    snapshot_effects effects;
+    snapshot_structure structure = SNAPSHOT_STRUCTURE_SURFACE;
+    snapshot_eyes eyes;
+    snapshot_scenery scenery = SNAPSHOT_SCENERY_STUDIO;
     snapshot_environment environment = SNAPSHOT_ENVIRONMENT_NONE;
     float environment_strength = 0.4f; /* weight of the semi-transparent layer */
 

@@ -3,14 +3,26 @@
 
 #include "station/angle.h"
 #include "station/hand.h"
+#include "station/showing.h"
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 namespace {
 
 enum moved_thing : int { MOVED_NOTHING, MOVED_SCENE, MOVED_TOOL, MOVED_LIGHT0 };
-enum meaning : int { MEANS_NOTHING, MEANS_APPLY, MEANS_UNDO, MEANS_REDO, MEANS_CLUTCH, MEANS_NEXT_ACTION, MEANS_FORK };
+enum meaning : int {
+    MEANS_NOTHING,
+    MEANS_APPLY,
+    MEANS_UNDO,
+    MEANS_REDO,
+    MEANS_CLUTCH,
+    MEANS_NEXT_ACTION,
+    MEANS_FORK,
+    MEANS_ENVIRONMENT_NEXT,
+    MEANS_HOLD, /* from here on: as showing_hold has them */
+};
 
 constexpr int PUCKS = 8, PEDALS = 8, BUTTONS = 32;
 constexpr double CAMERA_AT_REST_MM = 200; /* speeds are meant at this distance and scale with it */
@@ -18,13 +30,6 @@ constexpr double MOUSE_RADIANS_A_PIXEL = 0.006, MOUSE_PART_A_PIXEL = 0.001, WHEE
 constexpr size_t MESSAGES_MAX = 100;
 
 double radians_of(double degrees) { return degrees * (ANGLE_PI / 180); }
-
-std::array<float, 3> rgb_of(double rgb)
-{
-    auto v = static_cast<uint32_t>(rgb);
-    return {static_cast<float>(v >> 16 & 255) / 255, static_cast<float>(v >> 8 & 255) / 255,
-            static_cast<float>(v & 255) / 255};
-}
 
 } // namespace
 
@@ -52,8 +57,7 @@ struct station {
     double speed_mm = 90, speed_radians = 1.6;
     bool clutch = false;
 
-    snapshot shown;           /* all but the tool and the scene's shift */
-    motion_vector centre{};   /* world point the eye looks at */
+    showing shown;
 
     std::deque<std::string> pictures, exports, messages;
     std::vector<command> recording;
@@ -185,6 +189,10 @@ void go_to_fork(station *s) { step_begin(s, HISTORY_FORK, "fork"); }
 
 void press(station *s, meaning m, bool down)
 {
+    if (m >= MEANS_HOLD) {
+        showing_hold_set(&s->shown, static_cast<showing_hold>(m - MEANS_HOLD), down);
+        return;
+    }
     switch (m) {
     case MEANS_NOTHING: break;
     case MEANS_APPLY: apply_hold(s, down); break;
@@ -205,6 +213,11 @@ void press(station *s, meaning m, bool down)
         if (down)
             s->tool.kind = static_cast<action>((s->tool.kind + 1) % ACTION_COUNT);
         break;
+    case MEANS_ENVIRONMENT_NEXT:
+        if (down)
+            showing_environment_next(&s->shown);
+        break;
+    case MEANS_HOLD: break;
     }
 }
 
@@ -213,16 +226,16 @@ void press(station *s, meaning m, bool down)
 /* Shifts and turns (view frame) what a device moves. */
 void thing_move(station *s, moved_thing what, const motion_vector &shift_mm, const motion_vector &turn_radians)
 {
-    const motion_quaternion scene = s->shown.scene_turn;
+    const motion_quaternion scene = s->shown.base.scene_turn;
     motion_vector shift_world = motion_rotate_back(scene, shift_mm);
     if (what == MOVED_SCENE) {
-        s->centre = motion_sum(s->centre, shift_world, -1);
-        s->shown.scene_turn = motion_turned(scene, turn_radians);
+        s->shown.centre = motion_sum(s->shown.centre, shift_world, -1);
+        s->shown.base.scene_turn = motion_turned(scene, turn_radians);
     } else if (what == MOVED_TOOL) {
         s->tool.pose.place = motion_sum(s->tool.pose.place, shift_world);
         s->tool.pose.turn = motion_turned(s->tool.pose.turn, motion_rotate_back(scene, turn_radians));
     } else if (what >= MOVED_LIGHT0) {
-        snapshot_light &light = s->shown.lights[static_cast<size_t>(what - MOVED_LIGHT0)];
+        snapshot_light &light = s->shown.base.lights[static_cast<size_t>(what - MOVED_LIGHT0)];
         light.position = motion_sum(light.position, light.with_viewer ? shift_mm : shift_world);
     }
 }
@@ -239,7 +252,7 @@ moved_thing puck_moves(const station *s, size_t device)
 
 void pucks_move(station *s, double seconds)
 {
-    double zoom = s->shown.camera_distance / CAMERA_AT_REST_MM;
+    double zoom = s->shown.base.camera_distance / CAMERA_AT_REST_MM;
     for (size_t device = 0; device < PUCKS; device++) {
         moved_thing what = puck_moves(s, device);
         if (what == MOVED_NOTHING || s->puck[device] == std::array<int16_t, 6>{})
@@ -256,7 +269,7 @@ void pucks_move(station *s, double seconds)
 
 void mouse_move(station *s, double dx, double dy, double wheel)
 {
-    double mm = s->shown.camera_distance;
+    double mm = s->shown.base.camera_distance;
     moved_thing what = s->moves[0];
     if (what == MOVED_SCENE) /* virtual trackball */
         thing_move(s, what, {0, 0, 0}, {dy * MOUSE_RADIANS_A_PIXEL, dx * MOUSE_RADIANS_A_PIXEL, 0});
@@ -265,7 +278,7 @@ void mouse_move(station *s, double dx, double dy, double wheel)
                    {dx * MOUSE_PART_A_PIXEL * mm, -dy * MOUSE_PART_A_PIXEL * mm, wheel * WHEEL_PART_A_NOTCH * mm},
                    {0, 0, 0});
     if (what == MOVED_SCENE)
-        s->shown.camera_distance = std::clamp(mm * (1 - wheel * WHEEL_PART_A_NOTCH), 0.1, 1e6);
+        s->shown.base.camera_distance = std::clamp(mm * (1 - wheel * WHEEL_PART_A_NOTCH), 0.1, 1e6);
 }
 
 void grid_step(station *s)
@@ -273,6 +286,7 @@ void grid_step(station *s)
     constexpr double seconds = STATION_STEP_US / 1e6;
     pucks_move(s, seconds);
     hand_advance(&s->tool, s->next_us);
+    showing_advance(&s->shown, seconds, s->tool.pose.place);
     if (s->applying) {
         std::vector<stroke_dab> dabs;
         stroke_step(&s->path, s->tool.pose, seconds, hand_rule(&s->tool), &dabs);
@@ -377,39 +391,23 @@ void do_tool(station *s, const command &c)
     }
 }
 
+/* From the vertices of the surface: what is stored beyond it is no part of the piece. */
+void workspace_fit(station *s)
+{
+    motion_vector lo{}, hi{};
+    if (sculpture_bounds_mm(s->piece, lo.data(), hi.data()))
+        showing_fit(&s->shown, lo, hi);
+    else
+        tell(s, "workspace-fit: there is no clay to put it round");
+}
+
 void do_picture(station *s, const command &c)
 {
-    const auto &n = c.number;
-    snapshot &v = s->shown;
-    /* Where the first argument is no index it may be negative, and is not used as one. */
-    auto index = static_cast<size_t>(static_cast<int64_t>(n[0]));
     switch (c.kind) {
-    case COMMAND_VIEW:
-        v.scene_turn = motion_about({n[0], n[1], n[2]}, radians_of(n[3]));
-        v.camera_distance = n[4];
-        break;
-    case COMMAND_CENTRE: s->centre = {n[0], n[1], n[2]}; break;
-    case COMMAND_ENVIRONMENT:
-        v.environment = static_cast<snapshot_environment>(index);
-        v.environment_strength = static_cast<float>(n[1]);
-        break;
-    case COMMAND_LIGHT:
-        v.lights[index] = {true, n[6] == 1, {n[1], n[2], n[3]}, rgb_of(n[4]), static_cast<float>(n[5])};
-        break;
-    case COMMAND_LIGHT_OFF: v.lights[index].lit = false; break;
-    case COMMAND_LIGHTS_SHOWN: v.lights_shown = index == 1; break;
-    case COMMAND_KEEPING_SHOWN: v.keeping_shown = index == 1; break;
-    case COMMAND_MATERIAL:
-        v.material = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
-        break;
-    case COMMAND_TOOL_STYLE: v.tool_style = static_cast<snapshot_tool_style>(index); break;
-    case COMMAND_WORKSPACE:
-        v.box_lo = {n[0], n[1], n[2]};
-        v.box_hi = {n[3], n[4], n[5]};
-        break;
-    case COMMAND_WORKSPACE_SHOWN: v.box_shown = index == 1; break;
+    case COMMAND_WORKSPACE_FIT: workspace_fit(s); break;
     case COMMAND_PICTURE: s->pictures.push_back(c.name); break;
-    default: s->exports.push_back(c.name); break; /* COMMAND_EXPORT */
+    case COMMAND_EXPORT: s->exports.push_back(c.name); break;
+    default: showing_do(&s->shown, c); break;
     }
 }
 
@@ -474,7 +472,7 @@ station *station_open(sculpture *piece, station_ears ears)
     auto *s = new station;
     s->piece = piece;
     s->ears = std::move(ears);
-    s->shown.step_mm = piece->step_mm;
+    s->shown.base.step_mm = piece->step_mm;
     s->pedal_means[0] = s->button_means[0] = MEANS_APPLY;
     s->pedal_means[1] = s->button_means[1] = MEANS_UNDO;
     s->moves[0] = MOVED_SCENE;
@@ -519,13 +517,10 @@ void station_do(station *s, const command &c)
 
 snapshot station_snapshot(const station *s)
 {
-    snapshot out = s->shown;
+    snapshot out = showing_now(s->shown);
     const hand &h = s->tool;
-    motion_vector shift = motion_rotate(out.scene_turn, s->centre);
-    for (size_t a = 0; a < 3; a++) {
-        out.scene_shift[a] = -shift[a];
-        out.tool_colour[a] = static_cast<float>(colour_channel(h.rgba, static_cast<int>(a))) / 255;
-    }
+    for (int a = 0; a < 3; a++)
+        out.tool_colour[static_cast<size_t>(a)] = static_cast<float>(colour_channel(h.rgba, a)) / 255;
     out.tool_world = hand_frame(&h, h.pose);
     out.tool_working = s->applying;
     const keeper_facts facts = sculpture_facts(s->piece);
@@ -552,5 +547,10 @@ static bool front_take(std::deque<std::string> *from, std::string *out)
 
 bool station_picture_take(station *s, std::string *name_out) { return front_take(&s->pictures, name_out); }
 bool station_export_take(station *s, std::string *name_out) { return front_take(&s->exports, name_out); }
+bool station_scenery_take(station *s, std::string *name_out)
+{
+    *name_out = std::exchange(s->shown.scenery_file, {});
+    return !name_out->empty();
+}
 bool station_message_take(station *s, std::string *text_out) { return front_take(&s->messages, text_out); }
 const std::vector<command> &station_recording(const station *s) { return s->recording; }

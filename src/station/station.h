@@ -70,6 +70,8 @@ bool station_is_applying(const station *s);
 bool station_picture_take(station *s, std::string *name_out);
 /* Files of the piece that were asked for, likewise. */
 bool station_export_take(station *s, std::string *name_out);
+/* The picture that was brought as scenery, likewise. */
+bool station_scenery_take(station *s, std::string *name_out);
 /* Sentences for the person, oldest first; false when none. */
 bool station_message_take(station *s, std::string *text_out);
 /* Everything done since opening, as a tape's commands would have it; nothing where nobody asked for it. */

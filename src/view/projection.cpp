@@ -81,6 +81,18 @@ projection projection_make(const snapshot &s, int width, int height, const std::
     return p;
 }
 
+projection projection_of_part(projection p, int width, int height, const projection_part &part)
+{
+    const double across = static_cast<double>(width) / part.width, down = static_cast<double>(height) / part.height;
+    glm::dmat4 enlarged(1);
+    enlarged[0][0] = across;
+    enlarged[1][1] = down;
+    enlarged[3][0] = across - 1 - 2.0 * part.x / part.width;
+    enlarged[3][1] = 1 - down + 2.0 * part.y / part.height;
+    p.clip_from_eye = enlarged * p.clip_from_eye;
+    return p;
+}
+
 double projection_pixels_per_mm(const snapshot &s, int height, double ahead)
 {
     return 0.5 * height / (std::tan(0.5 * s.field_of_view) * ahead);

@@ -38,6 +38,10 @@ struct projection_ball {
     double radius;
 };
 
+struct projection_part {
+    int x, y, width, height;
+};
+
 /* Empty when the snapshot can be drawn. */
 std::string projection_trouble(const snapshot &s);
 
@@ -49,6 +53,10 @@ projection_ball projection_ball_of_box(const glm::dmat4 &eye_from_world, const g
 
 /* Balls that are not finite are not held. */
 projection projection_make(const snapshot &s, int width, int height, const std::vector<projection_ball> &held);
+
+/* The same, for a part of the picture alone, in pixels from its top left corner: tiles of a picture larger than a canvas
+   meet without a seam. */
+projection projection_of_part(projection p, int width, int height, const projection_part &part);
 
 /* Height in pixels of one millimetre, seen at a depth of `ahead` mm. */
 double projection_pixels_per_mm(const snapshot &s, int height, double ahead);

@@ -273,16 +273,22 @@ void view_forget(view *v) { upload_clear(&v->clay); }
 
 bool view_draw(view *v, const snapshot &s, int width, int height, std::string *trouble_out)
 {
+    return view_draw_part(v, s, width, height, {0, 0, width, height}, trouble_out);
+}
+
+bool view_draw_part(view *v, const snapshot &s, int width, int height, const view_part &part, std::string *trouble_out)
+{
     v->picture.resolved = false;
     *trouble_out = projection_trouble(s);
-    if (!trouble_out->empty() || !canvas_size(&v->picture, width, height, trouble_out))
+    if (!trouble_out->empty() || !canvas_size(&v->picture, part.width, part.height, trouble_out))
         return false;
     if (s.tool_surface != v->tool_surface)
         upload_clear(&v->tool);
     v->tool_surface = s.tool_surface;
     if (s.tool_surface && !upload_update(&v->tool, s.tool_surface, v->budget_bytes, trouble_out))
         return false;
-    const projection p = project(*v, s, width, height);
+    const projection p = projection_of_part(project(*v, s, width, height), width, height,
+                                            {part.x, part.y, part.width, part.height});
     canvas_begin(&v->picture);
     draw_backdrop(*v, width, height);
     draw_clay(*v, s, p);

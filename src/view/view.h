@@ -33,6 +33,7 @@
 
 struct view;
 
+constexpr int VIEW_SIDE_MAX = 65536; /* of a picture that is drawn in parts */
 constexpr size_t VIEW_ALL = std::numeric_limits<size_t>::max(); /* budget of a picture: nothing waits */
 /* Budget of a frame at 60 Hz: 170 patches of 160 vertices, as a stroke of a large tool changes them. Packing and
    writing it is to take about a millisecond of the processor, 60 MiB a second are 0.4 % of what a Raspberry Pi 5's
@@ -59,6 +60,14 @@ void view_forget(view *v);
 
 /* Draws the patches of the last update. Width and height 1..CANVAS_SIDE_MAX. */
 [[nodiscard]] bool view_draw(view *v, const snapshot &s, int width, int height, std::string *trouble_out);
+
+struct view_part {
+    int x, y, width, height; /* pixels; x, y from the whole picture's top left corner */
+};
+/* The same, of a part of a picture that may be larger than any canvas: width and height 1..VIEW_SIDE_MAX, the part's
+   own 1..CANVAS_SIDE_MAX. view_pixels then has the part. */
+[[nodiscard]] bool view_draw_part(view *v, const snapshot &s, int width, int height, const view_part &part,
+                                  std::string *trouble_out);
 
 /* The last picture: width x height RGBA8, sRGB, top row first, alpha 255. Waits for the device. */
 [[nodiscard]] bool view_pixels(view *v, std::vector<uint8_t> *rgba_out, std::string *trouble_out);

@@ -54,7 +54,7 @@ projection_ball projection_ball_of_box(const glm::dmat4 &eye_from_world, const g
 /* Balls that are not finite are not held. */
 projection projection_make(const snapshot &s, int width, int height, const std::vector<projection_ball> &held);
 
-/* The same, for a part of the picture alone, in pixels from its top left corner: tiles of a picture larger than a canvas
+/* The same, for a part of the picture alone, pixels from its top left corner: parts of a picture larger than a canvas
    meet without a seam. */
 projection projection_of_part(projection p, int width, int height, const projection_part &part);
 

@@ -473,6 +473,7 @@ station *station_open(sculpture *piece, station_ears ears)
     s->piece = piece;
     s->ears = std::move(ears);
     s->shown.base.step_mm = piece->step_mm;
+    s->shown.base.look = SNAPSHOT_LOOK_CLAY;
     s->pedal_means[0] = s->button_means[0] = MEANS_APPLY;
     s->pedal_means[1] = s->button_means[1] = MEANS_UNDO;
     s->moves[0] = MOVED_SCENE;

@@ -14,15 +14,59 @@ int integer(GLenum what)
     return value;
 }
 
-/* As many samples as the colour format has on this machine, CANVAS_SAMPLES at most. */
-int samples_here()
+void make_drawn(canvas *c)
 {
-    GLint most = 0;
-    glGetInternalformativ(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, 1, &most); /* given in falling order */
-    return std::clamp(std::min(most, integer(GL_MAX_SAMPLES)), 0, static_cast<int>(CANVAS_SAMPLES));
+    glGenRenderbuffers(1, &c->colour);
+    glBindRenderbuffer(GL_RENDERBUFFER, c->colour);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, c->samples, GL_SRGB8_ALPHA8, c->width, c->height);
+    glGenRenderbuffers(1, &c->depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, c->depth);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, c->samples, GL_DEPTH_COMPONENT24, c->width, c->height);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    glGenFramebuffers(1, &c->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, c->framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, c->colour);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, c->depth);
 }
 
-bool fits(int width, int height, std::string *trouble_out)
+void make_target(canvas_target *t)
+{
+    glGenTextures(1, &t->texture);
+    glBindTexture(GL_TEXTURE_2D, t->texture);
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, t->width, t->height);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glGenFramebuffers(1, &t->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t->texture, 0);
+}
+
+/* Of the framebuffer that is bound now; unbinds it. */
+bool is_complete(int width, int height, std::string *trouble_out)
+{
+    const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    const GLenum error = glGetError();
+    if (complete && error == GL_NO_ERROR)
+        return true;
+    *trouble_out = "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels cannot be drawn: " +
+                   (error == GL_OUT_OF_MEMORY ? "the device has no memory for it" : "the device refuses its format");
+    return false;
+}
+
+void errors_drop()
+{
+    while (glGetError() != GL_NO_ERROR) {
+    }
+}
+
+} // namespace
+
+bool canvas_fits(int width, int height, std::string *trouble_out)
 {
     GLint viewport[2] = {0, 0};
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
@@ -42,64 +86,25 @@ bool fits(int width, int height, std::string *trouble_out)
     return true;
 }
 
-void make_drawn(canvas *c)
+int canvas_samples_here(int wanted)
 {
-    glGenRenderbuffers(1, &c->colour);
-    glBindRenderbuffer(GL_RENDERBUFFER, c->colour);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, c->samples, GL_SRGB8_ALPHA8, c->width, c->height);
-    glGenRenderbuffers(1, &c->depth);
-    glBindRenderbuffer(GL_RENDERBUFFER, c->depth);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, c->samples, GL_DEPTH_COMPONENT24, c->width, c->height);
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
-    glGenFramebuffers(1, &c->framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, c->framebuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, c->colour);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, c->depth);
+    GLint most = 0;
+    glGetInternalformativ(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, 1, &most); /* given in falling order */
+    return std::clamp(std::min(most, integer(GL_MAX_SAMPLES)), 0, std::min(wanted, static_cast<int>(CANVAS_SAMPLES)));
 }
 
-void make_resolved(canvas *c)
+bool canvas_size(canvas *c, int width, int height, int samples, std::string *trouble_out)
 {
-    glGenTextures(1, &c->texture);
-    glBindTexture(GL_TEXTURE_2D, c->texture);
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, c->width, c->height);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindTexture(GL_TEXTURE_2D, 0);
-    glGenFramebuffers(1, &c->resolve_framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, c->resolve_framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, c->texture, 0);
-}
-
-/* Of the framebuffer that is bound now. */
-bool is_complete() { return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE; }
-
-} // namespace
-
-bool canvas_size(canvas *c, int width, int height, std::string *trouble_out)
-{
-    if (c->framebuffer != 0 && c->width == width && c->height == height)
+    if (c->framebuffer != 0 && c->width == width && c->height == height && c->wanted == samples)
         return true;
     canvas_close(c);
-    if (!fits(width, height, trouble_out))
+    if (!canvas_fits(width, height, trouble_out))
         return false;
-    while (glGetError() != GL_NO_ERROR) {
-    }
-    c->width = width;
-    c->height = height;
-    c->samples = samples_here();
+    errors_drop();
+    *c = {width, height, canvas_samples_here(samples), samples, 0, 0, 0};
     make_drawn(c);
-    bool complete = is_complete();
-    make_resolved(c);
-    complete = is_complete() && complete;
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    GLenum error = glGetError();
-    if (complete && error == GL_NO_ERROR)
+    if (is_complete(width, height, trouble_out))
         return true;
-    *trouble_out = "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                   " pixels cannot be drawn: " +
-                   (error == GL_OUT_OF_MEMORY ? "the device has no memory for it" : "the device refuses its format");
     canvas_close(c);
     return false;
 }
@@ -108,19 +113,42 @@ void canvas_close(canvas *c)
 {
     if (c->framebuffer != 0) {
         glDeleteFramebuffers(1, &c->framebuffer);
-        glDeleteFramebuffers(1, &c->resolve_framebuffer);
         glDeleteRenderbuffers(1, &c->colour);
         glDeleteRenderbuffers(1, &c->depth);
-        glDeleteTextures(1, &c->texture);
     }
     *c = canvas{};
 }
 
-void canvas_begin(canvas *c)
+bool canvas_target_size(canvas_target *t, int width, int height, std::string *trouble_out)
 {
-    assert(c->framebuffer != 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, c->framebuffer);
-    glViewport(0, 0, c->width, c->height);
+    if (t->framebuffer != 0 && t->width == width && t->height == height)
+        return true;
+    canvas_target_close(t);
+    if (!canvas_fits(width, height, trouble_out))
+        return false;
+    errors_drop();
+    *t = {width, height, 0, 0};
+    make_target(t);
+    if (is_complete(width, height, trouble_out))
+        return true;
+    canvas_target_close(t);
+    return false;
+}
+
+void canvas_target_close(canvas_target *t)
+{
+    if (t->framebuffer != 0) {
+        glDeleteFramebuffers(1, &t->framebuffer);
+        glDeleteTextures(1, &t->texture);
+    }
+    *t = canvas_target{};
+}
+
+void canvas_begin(const canvas &c)
+{
+    assert(c.framebuffer != 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, c.framebuffer);
+    glViewport(0, 0, c.width, c.height);
     glDisable(GL_SCISSOR_TEST);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
@@ -131,31 +159,38 @@ void canvas_begin(canvas *c)
     glClear(GL_DEPTH_BUFFER_BIT);
 }
 
-void canvas_end(canvas *c)
+void canvas_end(const canvas &c, const canvas_target &into)
 {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, c->framebuffer);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, c->resolve_framebuffer);
-    glBlitFramebuffer(0, 0, c->width, c->height, 0, 0, c->width, c->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    assert(into.width == c.width && into.height == c.height);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, c.framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer);
+    glBlitFramebuffer(0, 0, c.width, c.height, 0, 0, c.width, c.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     const GLenum done[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
     glInvalidateFramebuffer(GL_READ_FRAMEBUFFER, 2, done);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    c->resolved = true;
 }
 
-bool canvas_read(const canvas *c, std::vector<uint8_t> *rgba_out, std::string *trouble_out)
+void canvas_copy(const canvas_target &from, const canvas_target &into)
 {
-    if (!c->resolved) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer);
+    glBlitFramebuffer(0, 0, from.width, from.height, 0, 0, into.width, into.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+bool canvas_read(const canvas_target &t, std::vector<uint8_t> *rgba_out, std::string *trouble_out)
+{
+    if (t.framebuffer == 0) {
         *trouble_out = "there is no picture to read: nothing was drawn";
         return false;
     }
-    const size_t row = static_cast<size_t>(c->width) * 4;
-    const size_t rows = static_cast<size_t>(c->height);
+    const size_t row = static_cast<size_t>(t.width) * 4;
+    const size_t rows = static_cast<size_t>(t.height);
     rgba_out->resize(row * rows);
-    while (glGetError() != GL_NO_ERROR) {
-    }
-    glBindFramebuffer(GL_FRAMEBUFFER, c->resolve_framebuffer);
+    errors_drop();
+    glBindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, c->width, c->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba_out->data());
+    glReadPixels(0, 0, t.width, t.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba_out->data());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (glGetError() != GL_NO_ERROR) {
         *trouble_out = "the picture cannot be read back from the device";

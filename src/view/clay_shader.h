@@ -1,100 +1,102 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The fragment stage for clay: its colour under the lights, the environment over it, and the ring where the
- *          tool's limit of influence meets it.
- * Is not:  The vertex stage (patch_shader.h); the environment's picture (studio.h). It needs colour_shader.h before it.
- * Shape:   everything in eye space; u is the unit vector from the eye, v = -u, n the normal, r = u - 2 n (n.u).
- *              diffuse     wrapped a little round the terminator, red furthest: light wanders in clay
- *              specular    Blinn-Phong, and a broad faint sheen of a fifth of its exponent
- *              ambient     hemisphere: cool from above, warm from below; a little less where the clay turns away
- *              environment colour = (1 - w) lit + w map(r); none: w = 0, opaque: 1, semi: constant, clear coat:
- *                          w = F0 + (1 - F0) (1 - |n.v|)^5
- *          Lights do not fade with distance: moving one changes direction, not exposure.
+ * What:    The fragment stage for clay in the look of today: physically based, lit by the scenery and the lamps, then
+ *          brought under the screen's white as film does.
+ * Is not:  The light that arrives (lighting_shader.h); the papers' look (plain_shader.h); the vertex stage
+ *          (patch_shader.h). It needs colour_shader.h, layer_shader.h and lighting_shader.h before it.
+ * Shape:   everything in eye space; v is the unit vector to the eye, n the normal.
+ *              diffuse    of the scenery: its irradiance, less where the sky is hidden, and there tinted by the clay
+ *                         itself, as light goes to and fro; of the lamps: wrapped a little round the terminator, red
+ *                         furthest, since light wanders in clay
+ *              specular   GGX with Smith's visibility and Schlick's Fresnel; alpha = sqrt(2 / (shininess + 2)), F0 = 0.08
+ *                         specular; of the scenery: its map's level of that roughness
+ *              bend       hollows a little darker, ridges a little lighter, so that fine marks are read
+ *          u_look picks: 0 clay; 2 silhouette: one flat dark; 3 raking: grey, one lamp that grazes.
  * Units:   millimetres, linear light.
- * Source:  000 sections 2 and 5; Schlick 1994 for the clear coat's weight, F0 of glass (index 1.5).
+ * Source:  Walter et al. 2007 (GGX); Karis 2014 (the split sum's scale and bias, as a polynomial); Jimenez et al. 2016
+ *          (light to and fro in hollows); 000 section 5 names shadows as future work.
  */
 #ifndef GLAISE_VIEW_CLAY_SHADER_H
 #define GLAISE_VIEW_CLAY_SHADER_H
 
 inline constexpr char clay_shader_fragment[] = R"(
-in vec3 v_eye;
-centroid in vec3 v_normal;
-centroid in vec3 v_colour;
-layout(location = 0) out vec4 f_colour;
+uniform int u_look;      /* as enum snapshot_look */
+uniform vec3 u_material; /* specular, shininess, ambient */
 
-uniform int u_light_count;
-uniform vec3 u_light_place[4];
-uniform vec3 u_light_colour[4];
-uniform vec3 u_material;    /* specular, shininess, ambient */
-uniform int u_environment;  /* as enum snapshot_environment */
-uniform float u_environment_strength;
-uniform sampler2D u_studio;
-uniform mat4 u_tool_from_eye;
-uniform vec4 u_ring; /* alpha 0: none */
+uniform sampler2D u_rough; /* the scenery, by roughness */
 
-const vec3 WRAP = vec3(0.30, 0.24, 0.20);
-const vec3 SKY = vec3(0.98, 1.06, 1.16);
-const vec3 GROUND = vec3(0.44, 0.38, 0.33);
-const float SHEEN_EXPONENT = 0.2; /* of the specular's */
-const float SHEEN_WEIGHT = 0.20;
-const float GLOSS_TINT = 0.4; /* clay is no varnish: some of its colour is in its shine */
-const float COAT_F0 = 0.04;
+const float SCENERY_ROUGHEST = 6.0; /* as scenery.h has it */
+const vec3 WRAP = vec3(0.20, 0.14, 0.11);
+const float SKY_STRENGTH = 1.7; /* the scenery's light for ambient 1 */
+const vec3 RAKING_CLAY = vec3(0.42);
+const vec3 RAKING_TOWARD = vec3(-0.956, 0.271, 0.115);
+const vec3 SILHOUETTE_CLAY = vec3(0.012);
 
-vec3 lit(vec3 n, vec3 v)
+float visibility(float to_eye, float to_lamp, float alpha)
 {
-    float facing = max(dot(n, v), 0.0);
-    vec3 light = u_material.z * mix(GROUND, SKY, 0.5 + 0.5 * n.y) * (0.62 + 0.38 * facing);
-    vec3 gloss = vec3(0.0);
+    float a = alpha * alpha;
+    float eye = to_lamp * sqrt(to_eye * to_eye * (1.0 - a) + a), lamp = to_eye * sqrt(to_lamp * to_lamp * (1.0 - a) + a);
+    return 0.5 / max(eye + lamp, 1e-5);
+}
+
+/* A lamp's light on the surface: x the matt part's, y the shine's. */
+void lamp(vec3 n, vec3 v, vec3 toward, vec3 light, float seen, float alpha, float f0, inout vec3 matt, inout vec3 shine)
+{
+    float to_lamp = dot(n, toward), to_eye = max(dot(n, v), 1e-3);
+    vec3 wrapped = clamp((to_lamp + WRAP) / (1.0 + WRAP), 0.0, 1.0);
+    matt += light * wrapped * mix(wrapped, vec3(1.0), 0.35) * mix(1.0, seen, smoothstep(-0.15, 0.2, to_lamp));
+    if (to_lamp <= 0.0)
+        return;
+    vec3 h = normalize(toward + v);
+    float half_n = max(dot(n, h), 0.0), half_v = max(dot(v, h), 0.0), a = alpha * alpha;
+    float round = half_n * half_n * (a - 1.0) + 1.0;
+    float fresnel = f0 + (1.0 - f0) * pow(1.0 - half_v, 5.0);
+    shine += light * (seen * fresnel * to_lamp * a / (round * round) * visibility(to_eye, to_lamp, alpha));
+}
+
+vec3 lit(vec3 n, vec3 v, vec3 albedo, vec2 open)
+{
+    float alpha = sqrt(2.0 / (u_material.y + 2.0)), rough = sqrt(alpha), f0 = 0.08 * u_material.x;
+    float to_eye = max(dot(n, v), 1e-3), sky = u_material.z * SKY_STRENGTH;
+    vec3 to_and_fro = max(vec3(open.x), ((2.0404 * albedo - 0.3324) * open.x * open.x * open.x) +
+        (-4.7951 * albedo + 0.6417) * open.x * open.x + (2.7552 * albedo + 0.6903) * open.x);
+    vec3 matt = irradiance(n) * sky * to_and_fro, shine = vec3(0.0);
     for (int i = 0; i < u_light_count; i++) {
-        vec3 l = normalize(u_light_place[i] - v_eye);
-        float toward = dot(n, l);
-        vec3 wrapped = clamp((toward + WRAP) / (1.0 + WRAP), 0.0, 1.0);
-        light += u_light_colour[i] * wrapped * mix(wrapped, vec3(1.0), 0.35);
-        float half_toward = max(dot(n, normalize(l + v)), 0.0);
-        float shine = pow(half_toward, u_material.y) + SHEEN_WEIGHT * pow(half_toward, u_material.y * SHEEN_EXPONENT);
-        gloss += u_light_colour[i] * shine * smoothstep(0.0, 0.3, toward);
+        vec3 toward = normalize(u_light_place[i] - v_eye);
+        float seen = i == 0 ? shadowed(v_eye, n, toward) : 1.0;
+        lamp(n, v, toward, u_light_colour[i], seen * mix(1.0, open.x, 0.35), alpha, f0, matt, shine);
     }
-    return v_colour * light + u_material.x * gloss * mix(vec3(1.0), v_colour, GLOSS_TINT);
-}
-
-vec3 mirrored(vec3 n, vec3 u)
-{
-    vec3 r = reflect(u, n);
-    float m = 2.0 * sqrt(r.x * r.x + r.y * r.y + (r.z + 1.0) * (r.z + 1.0));
-    return texture(u_studio, r.xy / max(m, 1e-4) + 0.5).rgb;
-}
-
-float layer(float facing)
-{
-    if (u_environment == 1)
-        return 1.0;
-    if (u_environment == 2)
-        return u_environment_strength;
-    return COAT_F0 + (1.0 - COAT_F0) * pow(1.0 - min(abs(facing), 1.0), 5.0);
-}
-
-/* The line where the clay crosses the limit of the tool's influence, some two pixels wide. At the clay's rim a pixel
-   spans much of the clay: what lies far from the limit is no part of the line there. */
-float ring()
-{
-    float rho = length((u_tool_from_eye * vec4(v_eye, 1.0)).xyz);
-    float away = abs(rho - 1.0);
-    return (1.0 - smoothstep(0.5, 1.5, away / max(fwidth(rho), 1e-6))) * (1.0 - smoothstep(0.08, 0.16, away));
+    vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float edge = min(r.x * r.x, exp2(-9.28 * to_eye)) * r.x + r.y;
+    vec2 split = vec2(-1.04, 1.04) * edge + r.zw;
+    float hidden = clamp(pow(to_eye + open.x, exp2(-16.0 * rough - 1.0)) - 1.0 + open.x, 0.0, 1.0);
+    vec3 around = textureLod(u_rough, scenery_place(reflect(-v, n)), rough * SCENERY_ROUGHEST).rgb;
+    shine += around * (f0 * split.x + split.y) * min(sky, 1.0) * hidden;
+    return albedo * matt + shine;
 }
 
 void main()
 {
+    if (u_look == 2) {
+        f_colour = vec4(ringed(SILHOUETTE_CLAY), 1.0);
+        return;
+    }
     vec3 u = normalize(v_eye);
     vec3 n = normalize(v_normal);
     /* An interpolated normal may point away from the eye at the rim: turn it back just as far as can be seen. */
     n = normalize(n - u * max(dot(n, u), 0.0));
-    vec3 colour = lit(n, -u);
-    if (u_environment != 0)
-        colour = mix(colour, mirrored(n, u), layer(dot(n, u)));
-    colour = highlight(colour);
-    if (u_ring.a > 0.0)
-        colour = mix(colour, u_ring.rgb, u_ring.a * ring());
-    f_colour = vec4(colour, 1.0);
+    vec2 open = hollow(-v_eye.z);
+    float bend = clamp(1.0 + (open.y - 0.5) * 1.5, 0.55, 1.35);
+    vec3 colour;
+    if (u_look == 3) {
+        float graze = max(dot(n, RAKING_TOWARD), 0.0) * shadowed(v_eye, n, RAKING_TOWARD);
+        colour = RAKING_CLAY * (2.4 * graze + 0.06 * open.x) * bend;
+    } else {
+        colour = lit(n, -u, v_colour * bend, open);
+        if (u_environment != 0)
+            colour = mix(colour, mirrored(n, u) * mix(1.0, open.x, 0.6), layer(dot(n, u)));
+    }
+    f_colour = vec4(ringed(film(colour)), 1.0);
 }
 )";
 

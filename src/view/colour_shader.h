@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    What all stages share: sRGB to linear light and back, and the roll-off of bright light.
+ * What:    What all stages share: sRGB to linear light and back, and how bright light is brought under a screen's white.
  * Is not:  The encoding of the finished picture: the sRGB framebuffer does that (canvas.h).
- * Shape:   highlight() leaves light under KNEE as it is, so that clay in ordinary light shows the colour that was
- *          chosen, and bends the rest smoothly towards 1, as film does.
+ * Shape:   highlight() leaves light under KNEE as it is, channel by channel, and bends the rest smoothly towards 1: for
+ *          the papers' look and for what is drawn beside the clay.
+ *          film() is the clay's: as film has them, a toe that deepens what is dark and a shoulder that bends what is
+ *          bright, of the brightest channel, so that the hue stays; what would have gone far over white pales.
+ *
+ *              toe        x^2 / (x + TOE)
+ *              shoulder   over KNEE: KNEE + (1 - KNEE) (1 - exp(-(x - KNEE) / (1 - KNEE)))
+ *              paling     towards white by 1 - 1 / (1 + PALING (x before - x after))
+ *
  * Units:   linear light, 1 = the brightest a screen shows.
  */
 #ifndef GLAISE_VIEW_COLOUR_SHADER_H
@@ -23,6 +30,19 @@ vec3 highlight(vec3 light)
 {
     vec3 over = max(light - KNEE, 0.0) / (1.0 - KNEE);
     return min(light, KNEE) + (1.0 - KNEE) * (1.0 - exp(-over));
+}
+const float TOE = 0.012;
+const float PALING = 0.35;
+vec3 film(vec3 light)
+{
+    light = max(light, 0.0);
+    light = light * light / (light + TOE);
+    float brightest = max(max(light.r, light.g), light.b);
+    if (brightest <= KNEE)
+        return light;
+    float bent = KNEE + (1.0 - KNEE) * (1.0 - exp(-(brightest - KNEE) / (1.0 - KNEE)));
+    float pale = 1.0 - 1.0 / (1.0 + PALING * (brightest - bent));
+    return mix(light * (bent / brightest), vec3(bent), pale);
 }
 )";
 

@@ -93,6 +93,15 @@ projection projection_of_part(projection p, int width, int height, const project
     return p;
 }
 
+projection projection_mirrored(projection p)
+{
+    for (int column = 0; column < 4; column++)
+        p.clip_from_eye[column][0] = -p.clip_from_eye[column][0];
+    return p;
+}
+
+bool projection_is_mirrored(const projection &p) { return p.clip_from_eye[0][0] < 0; }
+
 double projection_pixels_per_mm(const snapshot &s, int height, double ahead)
 {
     return 0.5 * height / (std::tan(0.5 * s.field_of_view) * ahead);

@@ -58,6 +58,10 @@ projection projection_make(const snapshot &s, int width, int height, const std::
    meet without a seam. */
 projection projection_of_part(projection p, int width, int height, const projection_part &part);
 
+/* Left for right. Front faces then wind the other way. */
+projection projection_mirrored(projection p);
+bool projection_is_mirrored(const projection &p);
+
 /* Height in pixels of one millimetre, seen at a depth of `ahead` mm. */
 double projection_pixels_per_mm(const snapshot &s, int height, double ahead);
 

@@ -3,47 +3,66 @@
 
 #include "view/backdrop_shader.h"
 #include "view/canvas.h"
-#include "view/clay_shader.h"
 #include "view/colour_shader.h"
+#include "view/hollow.h"
+#include "view/lens.h"
+#include "view/lighting.h"
 #include "view/marker.h"
-#include "view/patch_shader.h"
 #include "view/program.h"
-#include "view/projection.h"
-#include "view/studio.h"
+#include "view/shadow.h"
+#include "view/sight.h"
+#include "view/skin.h"
 #include "view/upload.h"
-
-#include <glm/ext/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
+#include "view/wheel.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
-struct clay_uniforms {
-    GLint middle, eye_from_steps, eye_normal, clip_from_eye;
-    GLint light_count, light_place, light_colour, material;
-    GLint environment, environment_strength, tool_from_eye, ring;
-};
-
 struct view {
-    canvas picture;
+    view_limits limits;
+    std::string lacks;
+    quality pace;
+
     upload clay;
     upload tool; /* of snapshot.tool_surface */
     size_t budget_bytes = VIEW_ALL;
     const surface *tool_surface = nullptr;
+
+    skin clay_skin;
     marker markers;
-    GLuint studio = 0;
-    GLuint backdrop = 0, clay_program = 0;
-    GLuint empty_array = 0;
-    GLint aspect = -1;
-    clay_uniforms at{};
+    wheel turntable;
+    shadow lamp_shadow;
+    hollow hollows;
+    lens blur;
+    GLuint backdrop = 0, empty_array = 0;
+    GLint backdrop_aspect = -1, backdrop_part = -1, backdrop_look = -1;
+
+    scenery around;
+    snapshot_scenery around_is = SNAPSHOT_SCENERIES; /* which scenery that is; none yet */
+    scenery_picture own;
+
+    canvas drawn;
+    canvas_target sharp, blurred, eye; /* as drawn; through the lens; at the picture's own size */
+    const canvas_target *last = nullptr;
+    uint32_t passes = 0, page_draws = 0;
 };
 
 namespace {
 
-constexpr double brick_steps = BRICK_EDGE;
+/* What one picture is drawn by. */
+struct setting {
+    const snapshot &s;
+    int width, height; /* of the whole */
+    view_part part;
+    quality_rules rules;
+    bool hollows, lens;
+    projection p;
+    lighting light;
+};
 
 bool context_is_good(std::string *trouble_out)
 {
@@ -59,155 +78,127 @@ bool context_is_good(std::string *trouble_out)
     return false;
 }
 
-bool open_clay_program(view *v, std::string *trouble_out)
+void lack(view *v, const char *what, const std::string &why)
 {
-    if (!program_open("clay", {colour_shader_text, patch_shader_vertex}, {colour_shader_text, clay_shader_fragment},
-                      &v->clay_program, trouble_out))
-        return false;
-    const GLuint p = v->clay_program;
-    v->at = {program_uniform(p, "u_middle"),        program_uniform(p, "u_eye_from_steps"),
-             program_uniform(p, "u_eye_normal"),    program_uniform(p, "u_clip_from_eye"),
-             program_uniform(p, "u_light_count"),   program_uniform(p, "u_light_place[0]"),
-             program_uniform(p, "u_light_colour[0]"), program_uniform(p, "u_material"),
-             program_uniform(p, "u_environment"),   program_uniform(p, "u_environment_strength"),
-             program_uniform(p, "u_tool_from_eye"), program_uniform(p, "u_ring")};
-    glUseProgram(p);
-    glUniform1i(program_uniform(p, "u_bricks"), 0);
-    glUniform1i(program_uniform(p, "u_studio"), 1);
-    return true;
+    v->lacks += std::string(v->lacks.empty() ? "" : "; ") + what + ": " + why;
+}
+
+/* Each of these the picture can do without. */
+void open_effects(view *v)
+{
+    const std::string forbidden = "not wanted here";
+    const auto open = [v, &forbidden](bool *wanted, const char *what, auto &&opened) {
+        std::string why = forbidden;
+        if (*wanted && opened(&why))
+            return;
+        *wanted = false;
+        lack(v, what, why);
+    };
+    view_limits *l = &v->limits;
+    open(&l->shadows, "no shadows",
+         [v](std::string *why) { return v->clay_skin.depth.program != 0 && shadow_open(&v->lamp_shadow, why); });
+    open(&l->hollows, "no darker hollows",
+         [v](std::string *why) { return v->clay_skin.relief.program != 0 && hollow_open(&v->hollows, why); });
+    open(&l->wheel, "no turntable", [v](std::string *why) { return wheel_open(&v->turntable, why); });
+    open(&l->lens, "no depth of field",
+         [v](std::string *why) { return v->limits.hollows && lens_open(&v->blur, why); });
 }
 
 bool open_all(view *v, std::string *trouble_out)
 {
-    if (!open_clay_program(v, trouble_out) ||
+    std::string why;
+    if (!skin_open(&v->clay_skin, &why) ||
         !program_open("backdrop", {backdrop_shader_vertex}, {colour_shader_text, backdrop_shader_fragment},
-                      &v->backdrop, trouble_out) ||
-        !marker_open(&v->markers, trouble_out) || !studio_open(&v->studio, trouble_out))
+                      &v->backdrop, &why) ||
+        !marker_open(&v->markers, &why) || !scenery_open(&v->around, SNAPSHOT_SCENERY_STUDIO, v->own, &why)) {
+        *trouble_out = why;
         return false;
-    v->aspect = program_uniform(v->backdrop, "u_aspect");
+    }
+    v->around_is = SNAPSHOT_SCENERY_STUDIO;
+    if (!v->limits.clay) {
+        program_close(v->clay_skin.clay.program);
+        v->clay_skin.clay = {};
+    }
+    if (v->clay_skin.clay.program == 0)
+        lack(v, "the plain look only", why.empty() ? "not wanted here" : why);
+    v->backdrop_aspect = program_uniform(v->backdrop, "u_aspect");
+    v->backdrop_part = program_uniform(v->backdrop, "u_part");
+    v->backdrop_look = program_uniform(v->backdrop, "u_look");
     glGenVertexArrays(1, &v->empty_array);
     upload_init(&v->clay, false);
     upload_init(&v->tool, true);
+    open_effects(v);
     glUseProgram(0);
     return true;
 }
 
-/* --- what must lie between near and far --- */
+/* --- light --- */
 
-void hold_clay(const view &v, const snapshot &s, const glm::dmat4 &eye_from_world, std::vector<projection_ball> *held)
+bool surround(view *v, snapshot_scenery which, std::string *trouble_out)
 {
-    const box b = v.clay.bricks;
-    if (box_is_empty(b))
+    if (v->around_is == which)
+        return true;
+    scenery made;
+    if (!scenery_open(&made, which, v->own, trouble_out))
+        return false;
+    scenery_close(&v->around);
+    v->around = made;
+    v->around_is = which;
+    return true;
+}
+
+/* Far out, where every ray is parallel: as clay_shader.h has it. */
+glm::dvec3 raking_lamp(const projection_ball &ball) { return ball.middle_eye + 60 * ball.radius * glm::dvec3(-0.956, 0.271, 0.115); }
+
+void cast_shadow(view *v, setting *t)
+{
+    const projection_ball ball = sight_of_clay(t->s, v->clay, t->p.eye_from_world);
+    const bool raking = t->s.look == SNAPSHOT_LOOK_RAKING;
+    if (!t->s.effects.shadows || !(ball.radius > 0) || (t->light.lamps.count == 0 && !raking))
         return;
-    const double brick = s.step_mm * brick_steps;
-    held->push_back(projection_ball_of_box(
-        eye_from_world, brick * glm::dvec3(b.min.i, b.min.j, b.min.k),
-        brick * (glm::dvec3(b.max.i, b.max.j, b.max.k) + 1.0)));
+    t->light.shadow_taps = t->rules.shadow_taps;
+    if (t->light.shadow_taps == 0)
+        return;
+    t->light.sight = shadow_look(t->p, ball, raking ? raking_lamp(ball) : glm::dvec3(t->light.lamps.place[0]));
+    if (!shadow_is_stale(v->lamp_shadow, t->light.sight, v->clay.newest))
+        return;
+    shadow_begin(v->lamp_shadow);
+    skin_draw_depth(v->clay_skin, v->clay, t->s, t->light.sight.from_lamp);
+    shadow_end(&v->lamp_shadow, t->light.sight, v->clay.counts.waiting ? 0 : v->clay.newest);
+    v->passes++;
+    v->page_draws += static_cast<uint32_t>(v->clay.pages.size());
 }
 
-void hold_tool(const view &v, const snapshot &s, const glm::dmat4 &eye_from_world, std::vector<projection_ball> *held)
+void find_hollows(view *v, setting *t, bool wheel)
 {
-    glm::dvec3 reach(1);
-    glm::dvec3 off(0);
-    if (s.tool_surface) {
-        const box b = v.tool.bricks;
-        if (box_is_empty(b))
-            return;
-        const glm::dvec3 lo = brick_steps * glm::dvec3(b.min.i, b.min.j, b.min.k);
-        const glm::dvec3 hi = 8.0 * (glm::dvec3(b.max.i, b.max.j, b.max.k) + 1.0);
-        reach = 0.5 * (hi - lo);
-        off = 0.5 * (hi + lo) - glm::dvec3(s.tool_middle[0], s.tool_middle[1], s.tool_middle[2]);
-    }
-    const glm::dmat4 eye_from_tool = eye_from_world * projection_of_frame(s.tool_world);
-    double radius = 0;
-    for (int a = 0; a < 3; a++)
-        radius += reach[a] * glm::length(glm::dvec3(eye_from_tool[a]));
-    const glm::dvec3 middle(eye_from_tool * glm::dvec4(off, 1));
-    if (std::isfinite(radius) && std::isfinite(middle.z))
-        held->push_back({middle, radius});
+    if (!t->hollows)
+        return;
+    hollow_begin(v->hollows);
+    skin_draw_relief(v->clay_skin, v->clay, t->s, t->p);
+    if (wheel)
+        wheel_draw_relief(v->turntable, t->s, t->p);
+    hollow_end(v->hollows, t->p, HOLLOW_REACH * t->s.camera_distance,
+               t->rules.hollow_taps ? t->rules.hollow_taps : HOLLOW_TAPS_FEWER);
+    t->light.hollow = v->hollows.smoothed.texture;
+    t->light.hollow_strength = t->rules.hollow_taps ? std::clamp(t->s.effects.occlusion, 0.0f, 1.0f) : 0;
+    v->passes += 3;
+    v->page_draws += static_cast<uint32_t>(v->clay.pages.size());
 }
 
-projection project(const view &v, const snapshot &s, int width, int height)
-{
-    const glm::dmat4 eye_from_world = projection_eye_from_world(s);
-    std::vector<projection_ball> held;
-    hold_clay(v, s, eye_from_world, &held);
-    if (s.tool_style != SNAPSHOT_TOOL_HIDDEN)
-        hold_tool(v, s, eye_from_world, &held);
-    if (s.box_shown)
-        held.push_back(projection_ball_of_box(eye_from_world, glm::dvec3(s.box_lo[0], s.box_lo[1], s.box_lo[2]),
-                                              glm::dvec3(s.box_hi[0], s.box_hi[1], s.box_hi[2])));
-    for (const snapshot_light &light : s.lights) {
-        const glm::dvec4 at(light.position[0], light.position[1], light.position[2], 1);
-        if (light.lit && s.lights_shown)
-            held.push_back({glm::dvec3(light.with_viewer ? at : eye_from_world * at),
-                            MARKER_LIGHT_RADIUS * s.camera_distance});
-    }
-    return projection_make(s, width, height, held);
-}
+/* --- one picture --- */
 
-/* --- the clay --- */
-
-/* The brick under the point the camera looks at: from there offsets are small where precision is wanted. */
-key middle_brick(const snapshot &s, const glm::dmat4 &eye_from_world)
+void draw_backdrop(const view &v, const setting &t)
 {
-    const glm::dvec3 target(glm::inverse(eye_from_world) * glm::dvec4(0, 0, -s.camera_distance, 1));
-    const glm::dvec3 brick = glm::clamp(glm::floor(target / (s.step_mm * brick_steps)), glm::dvec3(KEY_MIN / 8),
-                                        glm::dvec3(KEY_MAX / 8));
-    return {static_cast<int32_t>(brick.x), static_cast<int32_t>(brick.y), static_cast<int32_t>(brick.z)};
-}
-
-void set_place(const view &v, const snapshot &s, const projection &p)
-{
-    const key middle = middle_brick(s, p.eye_from_world);
-    const glm::dvec3 from = s.step_mm * brick_steps * glm::dvec3(middle.i, middle.j, middle.k);
-    const glm::mat4 eye(glm::scale(glm::translate(p.eye_from_world, from), glm::dvec3(s.step_mm)));
-    const glm::mat3 normal{glm::dmat3(p.eye_from_world)};
-    const glm::mat4 clip(p.clip_from_eye);
-    glUniform3i(v.at.middle, middle.i, middle.j, middle.k);
-    glUniformMatrix4fv(v.at.eye_from_steps, 1, GL_FALSE, glm::value_ptr(eye));
-    glUniformMatrix3fv(v.at.eye_normal, 1, GL_FALSE, glm::value_ptr(normal));
-    glUniformMatrix4fv(v.at.clip_from_eye, 1, GL_FALSE, glm::value_ptr(clip));
-}
-
-void set_lights(const view &v, const snapshot &s, const projection &p)
-{
-    std::array<glm::vec3, SNAPSHOT_LIGHTS> place{}, colour{};
-    GLint count = 0;
-    for (const snapshot_light &light : s.lights) {
-        if (!light.lit)
-            continue;
-        const glm::dvec4 at(light.position[0], light.position[1], light.position[2], 1);
-        place[static_cast<size_t>(count)] = glm::vec3(light.with_viewer ? at : p.eye_from_world * at);
-        colour[static_cast<size_t>(count)] =
-            light.strength * glm::vec3(light.colour[0], light.colour[1], light.colour[2]);
-        count++;
-    }
-    glUniform1i(v.at.light_count, count);
-    glUniform3fv(v.at.light_place, SNAPSHOT_LIGHTS, glm::value_ptr(place[0]));
-    glUniform3fv(v.at.light_colour, SNAPSHOT_LIGHTS, glm::value_ptr(colour[0]));
-}
-
-void set_ring(const view &v, const snapshot &s, const projection &p)
-{
-    glm::mat4 tool_from_eye(1);
-    glm::vec4 ring(0);
-    glm::dmat4 eye_from_tool;
-    if (s.tool_style != SNAPSHOT_TOOL_HIDDEN && !s.tool_surface && marker_eye_from_tool(s, p, &eye_from_tool)) {
-        tool_from_eye = glm::mat4(glm::inverse(eye_from_tool));
-        ring = glm::vec4(marker_tool_colour(s), s.tool_working ? 1.0f : 0.7f);
-    }
-    glUniformMatrix4fv(v.at.tool_from_eye, 1, GL_FALSE, glm::value_ptr(tool_from_eye));
-    glUniform4fv(v.at.ring, 1, glm::value_ptr(ring));
-}
-
-void draw_backdrop(const view &v, int width, int height)
-{
+    const view_part &q = t.part;
+    const auto share = [](double part, double whole) { return static_cast<float>(part / whole); };
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glUseProgram(v.backdrop);
-    glUniform1f(v.aspect, static_cast<float>(width) / static_cast<float>(height));
+    glUniform1f(v.backdrop_aspect, share(t.width, t.height));
+    glUniform4f(v.backdrop_part, share(2 * q.x + q.width, t.width) - 1, 1 - share(2 * q.y + q.height, t.height),
+                share(q.width, t.width), share(q.height, t.height));
+    glUniform1i(v.backdrop_look, skin_look(v.clay_skin, t.s.look));
     glBindVertexArray(v.empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
@@ -215,32 +206,107 @@ void draw_backdrop(const view &v, int width, int height)
     glDepthFunc(GL_LEQUAL);
 }
 
-void draw_clay(const view &v, const snapshot &s, const projection &p)
+void draw_scene(view *v, setting *t, bool wheel)
 {
-    glUseProgram(v.clay_program);
-    set_place(v, s, p);
-    set_lights(v, s, p);
-    set_ring(v, s, p);
-    glUniform3f(v.at.material, s.material.specular, std::max(s.material.shininess, 1.0f), s.material.ambient);
-    glUniform1i(v.at.environment, s.environment);
-    glUniform1f(v.at.environment_strength, std::clamp(s.environment_strength, 0.0f, 1.0f));
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, v.studio);
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glFrontFace(GL_CCW);
-    upload_draw_triangles(v.clay);
-    glDisable(GL_CULL_FACE);
-    glActiveTexture(GL_TEXTURE0);
+    canvas_begin(v->drawn);
+    draw_backdrop(*v, *t);
+    lighting_bind(t->light);
+    skin_draw(v->clay_skin, v->clay, t->s, t->p, t->light);
+    if (wheel)
+        wheel_draw(v->turntable, t->s, t->p, t->light);
+    lighting_release();
+    const int height = t->height;
+    marker_draw_box(v->markers, t->s, t->p);
+    marker_draw_lights(v->markers, t->s, t->p);
+    marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr, height);
+    marker_draw_keeping(v->markers, t->s, t->p);
+    glUseProgram(0);
+    v->passes++;
+    v->page_draws += static_cast<uint32_t>(v->clay.pages.size() + v->tool.pages.size());
+}
+
+/* Sides of what is drawn for a picture of this side: fewer pixels where quality says so, more where there is no
+   multisampling. */
+int drawn_side(const view &v, const setting &t, int side)
+{
+    const bool lone = t.rules.samples > 0 && canvas_samples_here(std::min(t.rules.samples, v.limits.samples)) == 0;
+    return std::max(1, static_cast<int>(std::lround(side * t.rules.scale * (lone ? 2 : 1))));
+}
+
+/* Buffers of the right size, or none. */
+bool size_all(view *v, const setting &t, std::string *trouble_out)
+{
+    if (!canvas_fits(t.part.width, t.part.height, trouble_out))
+        return false;
+    int width = drawn_side(*v, t, t.part.width), height = drawn_side(*v, t, t.part.height);
+    std::string unused;
+    if (!canvas_fits(width, height, &unused)) {
+        width = t.part.width;
+        height = t.part.height;
+    }
+    const int samples = std::min(t.rules.samples, v->limits.samples);
+    return canvas_size(&v->drawn, width, height, samples, trouble_out) &&
+           canvas_target_size(&v->sharp, width, height, trouble_out) &&
+           (!t.lens || canvas_target_size(&v->blurred, width, height, trouble_out)) &&
+           (!t.hollows || hollow_size(&v->hollows, width, height, trouble_out));
+}
+
+/* One eye's picture, into a target of the picture's size: the last of the three that it went through. */
+bool draw_eye(view *v, setting *t, std::string *trouble_out)
+{
+    const bool wheel = v->limits.wheel && skin_look(v->clay_skin, t->s.look) != SNAPSHOT_LOOK_PLAIN &&
+                       wheel_is_seen(t->s, t->p);
+    t->light.near_mm = t->p.near_mm;
+    t->light.far_mm = t->p.far_mm;
+    find_hollows(v, t, wheel);
+    draw_scene(v, t, wheel);
+    canvas_end(v->drawn, v->sharp);
+    v->last = &v->sharp;
+    if (t->lens) {
+        glBindFramebuffer(GL_FRAMEBUFFER, v->blurred.framebuffer);
+        glViewport(0, 0, v->blurred.width, v->blurred.height);
+        lens_draw(v->blur, v->sharp.texture, v->hollows.smoothed.texture, t->p, t->s.eyes.plane_mm, t->s.effects.blur,
+                  t->height);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        v->last = &v->blurred;
+        v->passes++;
+    }
+    if (v->last->width != t->part.width || v->last->height != t->part.height) {
+        if (!canvas_target_size(&v->eye, t->part.width, t->part.height, trouble_out))
+            return false;
+        canvas_copy(*v->last, v->eye);
+        v->last = &v->eye;
+        v->passes++;
+    }
+    return true;
+}
+
+setting setting_of(const view &v, const snapshot &s, int width, int height, const view_part &part)
+{
+    setting t{s, width, height, part, quality_rules_of(v.pace.level), false, false, {}, {}};
+    const bool lit = skin_look(v.clay_skin, s.look) == SNAPSHOT_LOOK_CLAY || skin_look(v.clay_skin, s.look) == SNAPSHOT_LOOK_RAKING;
+    t.rules.shadow_taps = lit && v.limits.shadows ? t.rules.shadow_taps : 0;
+    t.rules.hollow_taps = lit && v.limits.hollows ? t.rules.hollow_taps : 0;
+    t.lens = v.limits.lens && t.rules.blur && s.effects.blur > 0;
+    t.hollows = t.lens || (t.rules.hollow_taps > 0 && s.effects.occlusion > 0);
+    t.p = projection_of_part(sight_of(s, v.clay, v.tool, width, height), width, height,
+                             {part.x, part.y, part.width, part.height});
+    if (s.effects.mirrored)
+        t.p = projection_mirrored(t.p);
+    t.light.lamps = lighting_lamps_of(s, t.p.eye_from_world);
+    t.light.scenery = &v.around;
+    t.light.shadow = &v.lamp_shadow;
+    return t;
 }
 
 } // namespace
 
-view *view_open(std::string *trouble_out)
+view *view_open(std::string *trouble_out, const view_limits &limits)
 {
     if (!context_is_good(trouble_out))
         return nullptr;
     auto v = std::make_unique<view>();
+    v->limits = limits;
     if (open_all(v.get(), trouble_out))
         return v.release();
     view_close(v.release());
@@ -251,15 +317,36 @@ void view_close(view *v)
 {
     if (!v)
         return;
-    canvas_close(&v->picture);
+    canvas_close(&v->drawn);
+    for (canvas_target *t : {&v->sharp, &v->blurred, &v->eye})
+        canvas_target_close(t);
     upload_finish(&v->clay);
     upload_finish(&v->tool);
+    skin_close(&v->clay_skin);
     marker_close(&v->markers);
+    wheel_close(&v->turntable);
+    shadow_close(&v->lamp_shadow);
+    hollow_close(&v->hollows);
+    lens_close(&v->blur);
+    scenery_close(&v->around);
     program_close(v->backdrop);
-    program_close(v->clay_program);
-    glDeleteTextures(1, &v->studio);
     glDeleteVertexArrays(1, &v->empty_array);
     delete v;
+}
+
+const std::string &view_lacks(const view *v) { return v->lacks; }
+
+bool view_scenery(view *v, scenery_picture own, std::string *trouble_out)
+{
+    if (own.width < 1 || own.height < 1 ||
+        own.rgba.size() != static_cast<size_t>(own.width) * static_cast<size_t>(own.height) * 4) {
+        *trouble_out = "a picture for the scenery: expected at least one pixel, four bytes each";
+        return false;
+    }
+    v->own = std::move(own);
+    if (v->around_is == SNAPSHOT_SCENERY_OWN)
+        v->around_is = SNAPSHOT_SCENERIES;
+    return true;
 }
 
 bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t budget_bytes)
@@ -269,7 +356,30 @@ bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t b
     return upload_update(&v->clay, &s->surface, budget_bytes, trouble_out);
 }
 
-void view_forget(view *v) { upload_clear(&v->clay); }
+void view_forget(view *v)
+{
+    upload_clear(&v->clay);
+    v->lamp_shadow.generation = 0;
+}
+
+bool view_frame_took(view *v, int64_t ns) { return quality_frame(&v->pace, ns); }
+const char *view_quality(const view *v) { return quality_text(v->pace.level); }
+
+std::string view_size_fitted(int *width, int *height)
+{
+    const int w = *width, h = *height;
+    std::string text;
+    *width = std::max(1, *width);
+    *height = std::max(1, *height);
+    while (!canvas_fits(*width, *height, &text)) {
+        *width = std::max(1, *width / 2);
+        *height = std::max(1, *height / 2);
+    }
+    if (*width == w && *height == h)
+        return "";
+    return "a screen of " + std::to_string(w) + " x " + std::to_string(h) + " pixels is drawn as " +
+           std::to_string(*width) + " x " + std::to_string(*height);
+}
 
 bool view_draw(view *v, const snapshot &s, int width, int height, std::string *trouble_out)
 {
@@ -278,40 +388,47 @@ bool view_draw(view *v, const snapshot &s, int width, int height, std::string *t
 
 bool view_draw_part(view *v, const snapshot &s, int width, int height, const view_part &part, std::string *trouble_out)
 {
-    v->picture.resolved = false;
+    v->last = nullptr;
+    v->passes = v->page_draws = 0;
     *trouble_out = projection_trouble(s);
-    if (!trouble_out->empty() || !canvas_size(&v->picture, part.width, part.height, trouble_out))
+    if (!trouble_out->empty())
         return false;
+    if (!canvas_fits(part.width, part.height, trouble_out))
+        return false;
+    assert(width > 0 && height > 0);
     if (s.tool_surface != v->tool_surface)
         upload_clear(&v->tool);
     v->tool_surface = s.tool_surface;
     if (s.tool_surface && !upload_update(&v->tool, s.tool_surface, v->budget_bytes, trouble_out))
         return false;
-    const projection p = projection_of_part(project(*v, s, width, height), width, height,
-                                            {part.x, part.y, part.width, part.height});
-    canvas_begin(&v->picture);
-    draw_backdrop(*v, width, height);
-    draw_clay(*v, s, p);
-    marker_draw_box(v->markers, s, p);
-    marker_draw_lights(v->markers, s, p);
-    marker_draw_tool(v->markers, s, p, s.tool_surface ? &v->tool : nullptr, height);
-    marker_draw_keeping(v->markers, s, p);
-    glUseProgram(0);
-    canvas_end(&v->picture);
+    if (!surround(v, s.scenery, trouble_out))
+        return false;
+    setting t = setting_of(*v, s, width, height, part);
+    if (!size_all(v, t, trouble_out))
+        return false;
+    cast_shadow(v, &t);
+    const bool done = draw_eye(v, &t, trouble_out);
+    if (!done)
+        v->last = nullptr;
     upload_drawn(&v->clay);
     upload_drawn(&v->tool);
-    return true;
+    return done;
 }
 
 bool view_pixels(view *v, std::vector<uint8_t> *rgba_out, std::string *trouble_out)
 {
-    return canvas_read(&v->picture, rgba_out, trouble_out);
+    return canvas_read(v->last ? *v->last : canvas_target{}, rgba_out, trouble_out);
 }
 
-uint32_t view_texture(const view *v) { return v->picture.texture; }
+uint32_t view_texture(const view *v) { return v->last ? v->last->texture : 0; }
 
 view_counts view_count(const view *v)
 {
-    return {v->clay.counts.bytes, v->clay.counts.patches, v->clay.counts.held,
-            v->clay.counts.waiting + v->tool.counts.waiting, v->picture.samples};
+    return {v->clay.counts.bytes,
+            v->clay.counts.patches,
+            v->clay.counts.held,
+            v->clay.counts.waiting + v->tool.counts.waiting,
+            v->drawn.samples,
+            v->passes,
+            v->page_draws};
 }

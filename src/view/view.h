@@ -1,22 +1,29 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The picture: a sculpture's patches under lights and an environment, with tool, lights and workspace box,
- *          drawn into a framebuffer of its own. This is the room's door.
+ * What:    The picture: a sculpture's patches under lights and a scenery, with tool, lights and workspace box, drawn
+ *          into a framebuffer of its own. This is the room's door.
  * Is not:  What is to be seen (station/snapshot.h); a screen or window (platform/display); a picture file
  *          (exchange/picture.h).
  * Shape:
- *              view_update   changed patches -> device            upload.h, page.h
- *              view_draw     backdrop, clay, box, lights, tool    canvas.h, clay_shader.h, marker.h
+ *              view_update   changed patches -> device                                         upload.h, page.h
+ *              view_draw     shadow map, when piece or lamp moved                              shadow.h
+ *                            for each eye:
+ *                              relief and hollows, half size                                   hollow.h
+ *                              backdrop, clay, turntable, box, lights, tool; multisampled      canvas.h, skin.h,
+ *                                                                                              wheel.h, marker.h
+ *                              depth of field                                                  lens.h
  *              view_pixels   the finished picture as bytes
  *
+ *          What a device cannot do is left out: the picture is poorer, and view_lacks says how. A device without
+ *          multisampling draws four times the pixels instead.
  * Units:   pixels; millimetres in the snapshot.
  * Owner:   view_open's caller owns the view. An OpenGL ES 3.1 context must be current in every call, and always the
  *          same. The view leaves no framebuffer, program or vertex array bound, and takes the state it needs for
  *          itself.
  * Errors:  true, or false and one sentence in the trouble. After a failed view_update what was sent is shown, the
  *          rest is tried again by the next; after a failed view_draw there is no picture.
- * Cost:    view_open: compiles four programs, computes the environment, tens of milliseconds. view_update: by changed
- *          patch. view_draw: one call per 65,536 vertices, and a few.
+ * Cost:    view_open: compiles some ten programs, computes the scenery, tenths of a second. view_update: by changed
+ *          patch. view_draw: up to four calls per 65,536 vertices, and a few. See README for the effects' costs.
  * Source:  000 sections 2 and 5.
  */
 #ifndef GLAISE_VIEW_VIEW_H
@@ -24,6 +31,8 @@
 
 #include "sculpture/sculpture.h"
 #include "station/snapshot.h"
+#include "view/quality.h"
+#include "view/scenery.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -46,11 +55,24 @@ struct view_counts {
     uint32_t patches;          /* on the device now */
     uint32_t waiting;          /* patches, the tool's too, that are not drawn as they are: over the budget */
     int samples;               /* per pixel in the last picture; 0 before the first */
+    uint32_t passes;           /* framebuffers drawn into for the last picture */
+    uint32_t page_draws;       /* draw calls of patches for it */
 };
 
-/* NULL and a trouble when no context is current, it is older than 3.1, or the device refuses. */
-[[nodiscard]] view *view_open(std::string *trouble_out);
+/* What a device is to do without, as if it could not: for trying what is left. */
+struct view_limits {
+    int samples = 4;
+    bool clay = true, shadows = true, hollows = true, wheel = true, lens = true;
+};
+
+/* NULL and a trouble when no context is current, it is older than 3.1, or the device refuses even the plain look. */
+[[nodiscard]] view *view_open(std::string *trouble_out, const view_limits &limits = {});
 void view_close(view *v); /* NULL is fine */
+/* What this device does not show, in sentences; empty when nothing. */
+const std::string &view_lacks(const view *v);
+
+/* The picture for SNAPSHOT_SCENERY_OWN. A bad one is refused, the one before stays. */
+[[nodiscard]] bool view_scenery(view *v, scenery_picture own, std::string *trouble_out);
 
 /* Brings what is shown up to date with the sculpture's surface. budget_bytes: what may be sent now; the rest waits for
    the next update, see upload.h. It also holds, for the tool's own surface, in each view_draw until then. */
@@ -58,6 +80,14 @@ void view_close(view *v); /* NULL is fine */
 /* Forgets every patch: before another sculpture is shown by the same view. */
 void view_forget(view *v);
 
+/* How long the last frame took. True when that changes what is drawn from now on: view_quality says what. */
+bool view_frame_took(view *v, int64_t ns);
+/* Empty, or what is left out to hold the frame rate. */
+const char *view_quality(const view *v);
+
+/* The largest size of the same shape that can be drawn in one, at least 1 x 1; a sentence when it is another than was
+   asked for. */
+std::string view_size_fitted(int *width, int *height);
 /* Draws the patches of the last update. Width and height 1..CANVAS_SIDE_MAX. */
 [[nodiscard]] bool view_draw(view *v, const snapshot &s, int width, int height, std::string *trouble_out);
 
@@ -71,7 +101,8 @@ struct view_part {
 
 /* The last picture: width x height RGBA8, sRGB, top row first, alpha 255. Waits for the device. */
 [[nodiscard]] bool view_pixels(view *v, std::vector<uint8_t> *rgba_out, std::string *trouble_out);
-/* The same as an OpenGL texture, bottom row first, for whoever shows it. Holds until the next view_draw. */
+/* The same as an OpenGL texture, bottom row first, for whoever shows it; 0 when there is none. Holds until the next
+   view_draw. */
 uint32_t view_texture(const view *v);
 
 view_counts view_count(const view *v);

@@ -8,6 +8,8 @@
 #include "view/view.h"
 #include "wiring/store.h"
 
+#include <cstdio>
+
 struct stage {
     display *place = nullptr;
     view *eye = nullptr;
@@ -20,8 +22,11 @@ stage *stage_open(std::string *text_out)
     s->place = display_open(DISPLAY_HEADLESS, &trouble);
     if (s->place && display_make_current(s->place, &trouble)) {
         s->eye = view_open(text_out);
-        if (s->eye)
+        if (s->eye) {
+            if (!view_lacks(s->eye).empty())
+                std::fprintf(stderr, "glaise: pictures are poorer here: %s\n", view_lacks(s->eye).c_str());
             return s;
+        }
     } else {
         *text_out = trouble.text;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: the sphere map's formula and its inverse agree, and mean what a mirror ball seen from far means.
  * Method: seeded directions there and back; for an orthographic eye the place must be half the normal plus a half. */
-#include "view/studio.h"
+#include "view/scenery.h"
 
 #include <gtest/gtest.h>
 
@@ -20,20 +20,20 @@ std::array<double, 3> unit(std::mt19937 *random)
     return d;
 }
 
-TEST(studio, directions_come_back)
+TEST(scenery, directions_come_back)
 {
     std::mt19937 random(1);
     for (int n = 0; n < 5000; n++) {
         const std::array<double, 3> d = unit(&random);
         if (d[2] < -0.999)
             continue; /* the whole rim is that direction */
-        const std::array<double, 3> back = studio_direction(studio_place(d));
+        const std::array<double, 3> back = scenery_direction(scenery_place(d));
         for (size_t c = 0; c < 3; c++)
             ASSERT_NEAR(back[c], d[c], 1e-9);
     }
 }
 
-TEST(studio, a_mirror_ball_seen_from_far_shows_the_map_itself)
+TEST(scenery, a_mirror_ball_seen_from_far_shows_the_map_itself)
 {
     std::mt19937 random(2);
     for (int n = 0; n < 5000; n++) {
@@ -42,27 +42,27 @@ TEST(studio, a_mirror_ball_seen_from_far_shows_the_map_itself)
         /* u = (0, 0, -1): r = u - 2 n (n.u) */
         const std::array<double, 3> r = {2 * normal[2] * normal[0], 2 * normal[2] * normal[1],
                                          2 * normal[2] * normal[2] - 1};
-        const std::array<double, 2> place = studio_place(r);
+        const std::array<double, 2> place = scenery_place(r);
         ASSERT_NEAR(place[0], normal[0] / 2 + 0.5, 1e-9);
         ASSERT_NEAR(place[1], normal[1] / 2 + 0.5, 1e-9);
     }
 }
 
-TEST(studio, the_middle_is_behind_the_viewer)
+TEST(scenery, the_middle_is_behind_the_viewer)
 {
-    EXPECT_EQ(studio_place({0, 0, 1}), (std::array<double, 2>{0.5, 0.5}));
-    const std::array<double, 3> corner = studio_direction({0.01, 0.99});
+    EXPECT_EQ(scenery_place({0, 0, 1}), (std::array<double, 2>{0.5, 0.5}));
+    const std::array<double, 3> corner = scenery_direction({0.01, 0.99});
     EXPECT_EQ(corner, (std::array<double, 3>{0, 0, -1})) << "beyond the rim the map goes on as the rim";
 }
 
-TEST(studio, light_is_finite_everywhere_and_brightest_in_the_soft_boxes)
+TEST(scenery, light_is_finite_everywhere_and_brightest_in_the_soft_boxes)
 {
     std::mt19937 random(4);
     double most = 0;
     std::array<double, 3> brightest{};
     for (int n = 0; n < 20000; n++) {
         const std::array<double, 3> d = unit(&random);
-        for (double c : studio_light(d)) {
+        for (double c : scenery_light(SNAPSHOT_SCENERY_STUDIO, d)) {
             ASSERT_TRUE(std::isfinite(c));
             ASSERT_GT(c, 0);
             if (c > most) {

@@ -321,17 +321,25 @@ class stereo_bar : public stereo_picture {
 
     view_stage_picture finished(const stereo_screen &whole, double x, double z, bool mirrored = false)
     {
-        const projection_part all = {0, 0, whole.width, whole.height};
-        const stereo_size shape = stereo_shape(whole), size = stereo_eye_size(whole);
-        projection mono = projection_make(s, shape.width, shape.height, {{{0, 0, -200}, 100}});
+        return finished_part(whole, {0, 0, whole.width, whole.height}, x, z, mirrored);
+    }
+    view_stage_picture finished_part(const stereo_screen &whole, const projection_part &part, double x, double z,
+                                     bool mirrored = false)
+    {
+        const stereo_size looks = stereo_shape(whole), size = stereo_eye_size(whole);
+        projection mono = projection_make(s, looks.width, looks.height, {{{0, 0, -200}, 100}});
         if (mirrored)
             mono.clip_from_eye[0][0] = -mono.clip_from_eye[0][0];
         std::array<canvas, 2> eyes;
         for (stereo_eye eye : {STEREO_LEFT, STEREO_RIGHT}) {
-            EXPECT_TRUE(canvas_size(&eyes[eye], size.width, size.height, &trouble)) << trouble;
-            draw_bar(&eyes[eye], stereo_see(mono, plane, 8, eye), x, z);
+            const projection_part of = stereo_share_of(whole, eye, part).of_eye;
+            if (of.width == 0)
+                continue;
+            EXPECT_TRUE(canvas_size(&eyes[eye], of.width, of.height, &trouble)) << trouble;
+            const projection own = projection_of_part(mono, size.width, size.height, of);
+            draw_bar(&eyes[eye], stereo_see(own, plane, 8, eye), x, z);
         }
-        const view_stage_picture p = compose(whole, all, eyes[STEREO_LEFT].texture, eyes[STEREO_RIGHT].texture);
+        const view_stage_picture p = compose(whole, part, eyes[STEREO_LEFT].texture, eyes[STEREO_RIGHT].texture);
         for (canvas &c : eyes)
             canvas_close(&c);
         return p;
@@ -391,6 +399,31 @@ TEST_F(stereo_bar, before_the_plane_is_crossed_behind_it_is_not_by_as_much_as_ge
                 EXPECT_EQ(rows(p, 0, 320), rows(p, 320, 640)) << "nothing is higher in one eye";
             }
         }
+    }
+}
+
+TEST_F(stereo_bar, parts_meet_without_a_seam)
+{
+    for (snapshot_layout layout : {SNAPSHOT_LAYOUT_SIDE_HALF, SNAPSHOT_LAYOUT_TOP_HALF, SNAPSHOT_LAYOUT_PACKED,
+                                   SNAPSHOT_LAYOUT_CHECKER, SNAPSHOT_LAYOUT_ANAGLYPH}) {
+        const stereo_screen whole = {layout, false, 151, 103, layout == SNAPSHOT_LAYOUT_PACKED ? 3 : 0};
+        const view_stage_picture all = finished(whole, 1, 70);
+        int lit = 0;
+        for (int top = 0; top < 103; top += 37) {
+            for (int left = 0; left < 151; left += 63) {
+                const projection_part part = {left, top, std::min(63, 151 - left), std::min(37, 103 - top)};
+                const view_stage_picture some = finished_part(whole, part, 1, 70);
+                for (int y = 0; y < part.height; y++) {
+                    for (int x = 0; x < part.width; x++) {
+                        /* at the bar's sides one sample of four may fall otherwise */
+                        ASSERT_NEAR(some.light(x, y), all.light(left + x, top + y), 0.26)
+                            << "layout " << layout << ", part at " << left << ", " << top << ", " << x << ", " << y;
+                        lit += some.light(x, y) > 0.15; /* red alone is 0.21 */
+                    }
+                }
+            }
+        }
+        EXPECT_GT(lit, 80) << "layout " << layout;
     }
 }
 

@@ -125,7 +125,7 @@ std::vector<command_form> tool_forms()
     };
 }
 
-std::vector<command_form> picture_forms()
+std::vector<command_form> look_forms()
 {
     return {
         {COMMAND_VIEW,
@@ -174,6 +174,12 @@ std::vector<command_form> picture_forms()
          {number("SEPARATION", 0, 0.2), number("DEPTH", 0.25, 4)},
          "the eyes' separation as a part of the distance of the plane of zero parallax, and that, of the work's"},
         {COMMAND_STEREO_SWAP, "stereo-swap", {word("SWAPPED", ON_OFF)}, "gives each eye the other's picture"},
+    };
+}
+
+std::vector<command_form> picture_forms()
+{
+    return {
         {COMMAND_LIGHT,
          "light",
          {integer("N", 0, 3),
@@ -222,7 +228,7 @@ std::vector<command_form> picture_forms()
 std::vector<command_form> forms_make()
 {
     std::vector<command_form> all;
-    for (std::vector<command_form> (*make)() : {device_forms, tool_forms, picture_forms})
+    for (std::vector<command_form> (*make)() : {device_forms, tool_forms, look_forms, picture_forms})
         for (command_form &form : make())
             all.push_back(std::move(form));
     return all;

@@ -2,6 +2,7 @@
 #include "view/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 
@@ -88,9 +89,10 @@ bool canvas_fits(int width, int height, std::string *trouble_out)
 
 int canvas_samples_here(int wanted)
 {
-    GLint most = 0;
-    glGetInternalformativ(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, 1, &most); /* given in falling order */
-    return std::clamp(std::min(most, integer(GL_MAX_SAMPLES)), 0, std::min(wanted, static_cast<int>(CANVAS_SAMPLES)));
+    std::array<GLint, 16> counts{}; /* in falling order, then zeros */
+    glGetInternalformativ(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, counts.size(), counts.data());
+    const int most = std::min(wanted, static_cast<int>(CANVAS_SAMPLES));
+    return *std::find_if(counts.begin(), counts.end() - 1, [most](GLint n) { return n <= most; });
 }
 
 bool canvas_size(canvas *c, int width, int height, int samples, std::string *trouble_out)

@@ -12,6 +12,7 @@
 #include "view/shadow.h"
 #include "view/sight.h"
 #include "view/skin.h"
+#include "view/stereo.h"
 #include "view/upload.h"
 #include "view/wheel.h"
 
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 struct view {
     view_limits limits;
@@ -38,8 +40,9 @@ struct view {
     shadow lamp_shadow;
     hollow hollows;
     lens blur;
+    stereo both;
     GLuint backdrop = 0, empty_array = 0;
-    GLint backdrop_aspect = -1, backdrop_part = -1, backdrop_look = -1;
+    GLint backdrop_aspect = -1, backdrop_part = -1, backdrop_look = -1, backdrop_shift = -1;
 
     scenery around;
     snapshot_scenery around_is = SNAPSHOT_SCENERIES; /* which scenery that is; none yet */
@@ -47,21 +50,25 @@ struct view {
 
     canvas drawn;
     canvas_target sharp, blurred, eye; /* as drawn; through the lens; at the picture's own size */
-    const canvas_target *last = nullptr;
+    std::array<canvas_target, STEREO_EYES> eyes; /* each eye's, when there are two */
+    canvas_target whole;                         /* and what was put together of them */
+    canvas_target *last = nullptr;
     uint32_t passes = 0, page_draws = 0;
 };
 
 namespace {
 
-/* What one picture is drawn by. */
+/* What one eye's picture is drawn by. */
 struct setting {
-    const snapshot &s;
-    int width, height; /* of the whole */
+    snapshot s;          /* lights that move with the viewer: in this eye's space */
+    int width, height;   /* of the whole, pixels */
+    stereo_size looks;   /* the whole as it looks when it is shown */
     view_part part;
     quality_rules rules;
     bool hollows, lens;
     projection p;
     lighting light;
+    double far_shift = 0;
 };
 
 bool context_is_good(std::string *trouble_out)
@@ -102,6 +109,7 @@ void open_effects(view *v)
     open(&l->wheel, "no turntable", [v](std::string *why) { return wheel_open(&v->turntable, why); });
     open(&l->lens, "no depth of field",
          [v](std::string *why) { return v->limits.hollows && lens_open(&v->blur, why); });
+    open(&l->stereo, "no stereo", [v](std::string *why) { return stereo_open(&v->both, why); });
 }
 
 bool open_all(view *v, std::string *trouble_out)
@@ -124,6 +132,7 @@ bool open_all(view *v, std::string *trouble_out)
     v->backdrop_aspect = program_uniform(v->backdrop, "u_aspect");
     v->backdrop_part = program_uniform(v->backdrop, "u_part");
     v->backdrop_look = program_uniform(v->backdrop, "u_look");
+    v->backdrop_shift = program_uniform(v->backdrop, "u_shift");
     glGenVertexArrays(1, &v->empty_array);
     upload_init(&v->clay, false);
     upload_init(&v->tool, true);
@@ -148,7 +157,10 @@ bool surround(view *v, snapshot_scenery which, std::string *trouble_out)
 }
 
 /* Far out, where every ray is parallel: as clay_shader.h has it. */
-glm::dvec3 raking_lamp(const projection_ball &ball) { return ball.middle_eye + 60 * ball.radius * glm::dvec3(-0.956, 0.271, 0.115); }
+glm::dvec3 raking_lamp(const projection_ball &ball) 
+{
+    return ball.middle_eye + 60 * ball.radius * glm::dvec3(-0.956, 0.271, 0.115);
+}
 
 void cast_shadow(view *v, setting *t)
 {
@@ -195,7 +207,8 @@ void draw_backdrop(const view &v, const setting &t)
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glUseProgram(v.backdrop);
-    glUniform1f(v.backdrop_aspect, share(t.width, t.height));
+    glUniform1f(v.backdrop_aspect, share(t.looks.width, t.looks.height));
+    glUniform1f(v.backdrop_shift, static_cast<float>(t.far_shift));
     glUniform4f(v.backdrop_part, share(2 * q.x + q.width, t.width) - 1, 1 - share(2 * q.y + q.height, t.height),
                 share(q.width, t.width), share(q.height, t.height));
     glUniform1i(v.backdrop_look, skin_look(v.clay_skin, t.s.look));
@@ -215,7 +228,7 @@ void draw_scene(view *v, setting *t, bool wheel)
     if (wheel)
         wheel_draw(v->turntable, t->s, t->p, t->light);
     lighting_release();
-    const int height = t->height;
+    const int height = t->looks.height;
     marker_draw_box(v->markers, t->s, t->p);
     marker_draw_lights(v->markers, t->s, t->p);
     marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr, height);
@@ -229,7 +242,7 @@ void draw_scene(view *v, setting *t, bool wheel)
    multisampling. */
 int drawn_side(const view &v, const setting &t, int side)
 {
-    const bool lone = t.rules.samples > 0 && canvas_samples_here(std::min(t.rules.samples, v.limits.samples)) == 0;
+    const bool lone = t.rules.samples == CANVAS_SAMPLES && canvas_samples_here(v.limits.samples) == 0;
     return std::max(1, static_cast<int>(std::lround(side * t.rules.scale * (lone ? 2 : 1))));
 }
 
@@ -251,7 +264,7 @@ bool size_all(view *v, const setting &t, std::string *trouble_out)
            (!t.hollows || hollow_size(&v->hollows, width, height, trouble_out));
 }
 
-/* One eye's picture, into a target of the picture's size: the last of the three that it went through. */
+/* One eye's picture, in a target of the picture's size: the last of the three that it went through. */
 bool draw_eye(view *v, setting *t, std::string *trouble_out)
 {
     const bool wheel = v->limits.wheel && skin_look(v->clay_skin, t->s.look) != SNAPSHOT_LOOK_PLAIN &&
@@ -266,7 +279,7 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
         glBindFramebuffer(GL_FRAMEBUFFER, v->blurred.framebuffer);
         glViewport(0, 0, v->blurred.width, v->blurred.height);
         lens_draw(v->blur, v->sharp.texture, v->hollows.smoothed.texture, t->p, t->s.eyes.plane_mm, t->s.effects.blur,
-                  t->height);
+                  t->looks.height);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         v->last = &v->blurred;
         v->passes++;
@@ -281,22 +294,99 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
     return true;
 }
 
-setting setting_of(const view &v, const snapshot &s, int width, int height, const view_part &part)
+/* All but the projection. */
+setting setting_of(const view &v, const snapshot &s, stereo_size size, stereo_size looks, const view_part &part)
 {
-    setting t{s, width, height, part, quality_rules_of(v.pace.level), false, false, {}, {}};
-    const bool lit = skin_look(v.clay_skin, s.look) == SNAPSHOT_LOOK_CLAY || skin_look(v.clay_skin, s.look) == SNAPSHOT_LOOK_RAKING;
+    setting t{s, size.width, size.height, looks, part, quality_rules_of(v.pace.level), false, false, {}, {}};
+    const snapshot_look look = skin_look(v.clay_skin, s.look);
+    const bool lit = look == SNAPSHOT_LOOK_CLAY || look == SNAPSHOT_LOOK_RAKING;
     t.rules.shadow_taps = lit && v.limits.shadows ? t.rules.shadow_taps : 0;
     t.rules.hollow_taps = lit && v.limits.hollows ? t.rules.hollow_taps : 0;
     t.lens = v.limits.lens && t.rules.blur && s.effects.blur > 0;
     t.hollows = t.lens || (t.rules.hollow_taps > 0 && s.effects.occlusion > 0);
-    t.p = projection_of_part(sight_of(s, v.clay, v.tool, width, height), width, height,
-                             {part.x, part.y, part.width, part.height});
-    if (s.effects.mirrored)
-        t.p = projection_mirrored(t.p);
-    t.light.lamps = lighting_lamps_of(s, t.p.eye_from_world);
     t.light.scenery = &v.around;
     t.light.shadow = &v.lamp_shadow;
     return t;
+}
+
+projection project(const view &v, const snapshot &s, stereo_size looks)
+{
+    const projection p = sight_of(s, v.clay, v.tool, looks.width, looks.height);
+    return s.effects.mirrored ? projection_mirrored(p) : p;
+}
+
+bool draw_mono(view *v, const snapshot &s, stereo_size size, const view_part &part, std::string *trouble_out)
+{
+    setting t = setting_of(*v, s, size, size, part);
+    t.p = projection_of_part(project(*v, s, size), size.width, size.height, {part.x, part.y, part.width, part.height});
+    t.light.lamps = lighting_lamps_of(s, t.p.eye_from_world);
+    cast_shadow(v, &t);
+    return size_all(v, t, trouble_out) && draw_eye(v, &t, trouble_out);
+}
+
+/* How near and far what is looked at reaches. */
+void reach_of(const view &v, const snapshot &s, const projection &p, double *nearest_out, double *farthest_out)
+{
+    const projection_ball ball = sight_of_clay(s, v.clay, p.eye_from_world);
+    *nearest_out = std::max(p.near_mm, -ball.middle_eye.z - ball.radius);
+    *farthest_out = std::min(p.far_mm, -ball.middle_eye.z + ball.radius);
+    if (!(ball.radius > 0) || !(*nearest_out < *farthest_out)) {
+        *nearest_out = p.near_mm;
+        *farthest_out = p.far_mm;
+    }
+}
+
+void lights_seen_by(const glm::dmat4 &eye_from_mono, snapshot *s)
+{
+    for (snapshot_light &light : s->lights) {
+        const glm::dvec4 at(light.position[0], light.position[1], light.position[2], 1);
+        const glm::dvec4 seen = eye_from_mono * at;
+        if (light.with_viewer)
+            light.position = {seen.x, seen.y, seen.z};
+    }
+}
+
+bool draw_stereo(view *v, const snapshot &s, const stereo_screen &screen, const view_part &part,
+                 std::string *trouble_out)
+{
+    const stereo_size looks = stereo_shape(screen), size = stereo_eye_size(screen);
+    const projection mono = project(*v, s, looks);
+    const projection_part piece = {part.x, part.y, part.width, part.height};
+    double nearest = 0, farthest = 0;
+    reach_of(*v, s, mono, &nearest, &farthest);
+    const double apart = stereo_separation_mm(s.eyes, mono, nearest, farthest);
+    setting between = setting_of(*v, s, size, looks, part); /* shadows are the same for both */
+    between.p = mono;
+    between.light.lamps = lighting_lamps_of(s, mono.eye_from_world);
+    cast_shadow(v, &between);
+    for (stereo_eye eye : {STEREO_LEFT, STEREO_RIGHT}) {
+        const projection_part of = stereo_share_of(screen, eye, piece).of_eye;
+        if (of.width == 0)
+            continue;
+        const stereo_seen e =
+            stereo_see(projection_of_part(mono, size.width, size.height, of), s.eyes.plane_mm, apart, eye);
+        setting t = setting_of(*v, s, size, looks, {of.x, of.y, of.width, of.height});
+        lights_seen_by(e.eye_from_mono, &t.s);
+        t.p = e.seen;
+        t.far_shift = e.far_shift;
+        t.light.lamps = lighting_lamps_of(t.s, t.p.eye_from_world);
+        t.light.sight = between.light.sight;
+        t.light.shadow_taps = between.light.shadow_taps;
+        t.light.mono_from_eye = glm::inverse(e.eye_from_mono);
+        if (!size_all(v, t, trouble_out) || !draw_eye(v, &t, trouble_out))
+            return false;
+        std::swap(v->eyes[eye], *v->last);
+    }
+    if (!canvas_target_size(&v->whole, part.width, part.height, trouble_out))
+        return false;
+    glBindFramebuffer(GL_FRAMEBUFFER, v->whole.framebuffer);
+    glViewport(0, 0, part.width, part.height);
+    stereo_compose(v->both, screen, piece, v->eyes[STEREO_LEFT].texture, v->eyes[STEREO_RIGHT].texture);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glUseProgram(0);
+    v->last = &v->whole;
+    v->passes++;
+    return true;
 }
 
 } // namespace
@@ -318,7 +408,7 @@ void view_close(view *v)
     if (!v)
         return;
     canvas_close(&v->drawn);
-    for (canvas_target *t : {&v->sharp, &v->blurred, &v->eye})
+    for (canvas_target *t : {&v->sharp, &v->blurred, &v->eye, &v->eyes[0], &v->eyes[1], &v->whole})
         canvas_target_close(t);
     upload_finish(&v->clay);
     upload_finish(&v->tool);
@@ -328,6 +418,7 @@ void view_close(view *v)
     shadow_close(&v->lamp_shadow);
     hollow_close(&v->hollows);
     lens_close(&v->blur);
+    stereo_close(&v->both);
     scenery_close(&v->around);
     program_close(v->backdrop);
     glDeleteVertexArrays(1, &v->empty_array);
@@ -403,11 +494,14 @@ bool view_draw_part(view *v, const snapshot &s, int width, int height, const vie
         return false;
     if (!surround(v, s.scenery, trouble_out))
         return false;
-    setting t = setting_of(*v, s, width, height, part);
-    if (!size_all(v, t, trouble_out))
+    const stereo_screen screen = {s.eyes.layout, s.eyes.swapped, width, height, stereo_gap_usual(height)};
+    const bool two = v->both.program != 0 && s.eyes.layout != SNAPSHOT_LAYOUT_MONO;
+    if (two)
+        *trouble_out = stereo_trouble(s.eyes, screen);
+    if (!trouble_out->empty())
         return false;
-    cast_shadow(v, &t);
-    const bool done = draw_eye(v, &t, trouble_out);
+    const bool done = two ? draw_stereo(v, s, screen, part, trouble_out)
+                          : draw_mono(v, s, {width, height}, part, trouble_out);
     if (!done)
         v->last = nullptr;
     upload_drawn(&v->clay);

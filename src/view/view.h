@@ -12,6 +12,7 @@
  *                              backdrop, clay, turntable, box, lights, tool; multisampled      canvas.h, skin.h,
  *                                                                                              wheel.h, marker.h
  *                              depth of field                                                  lens.h
+ *                            both eyes into one                                              stereo.h
  *              view_pixels   the finished picture as bytes
  *
  *          What a device cannot do is left out: the picture is poorer, and view_lacks says how. A device without
@@ -62,7 +63,7 @@ struct view_counts {
 /* What a device is to do without, as if it could not: for trying what is left. */
 struct view_limits {
     int samples = 4;
-    bool clay = true, shadows = true, hollows = true, wheel = true, lens = true;
+    bool clay = true, shadows = true, hollows = true, wheel = true, lens = true, stereo = true;
 };
 
 /* NULL and a trouble when no context is current, it is older than 3.1, or the device refuses even the plain look. */
@@ -88,7 +89,8 @@ const char *view_quality(const view *v);
 /* The largest size of the same shape that can be drawn in one, at least 1 x 1; a sentence when it is another than was
    asked for. */
 std::string view_size_fitted(int *width, int *height);
-/* Draws the patches of the last update. Width and height 1..CANVAS_SIDE_MAX. */
+/* Draws the patches of the last update. Width and height 1..CANVAS_SIDE_MAX, of the finished picture: with two eyes
+   side by side both are in it. */
 [[nodiscard]] bool view_draw(view *v, const snapshot &s, int width, int height, std::string *trouble_out);
 
 struct view_part {

@@ -6,8 +6,8 @@
  * Shape:   everything in eye space.
  *              irradiance(n)     of the scenery, over pi: nine coefficients
  *              hollow()          x: how open the sky is, 0..1; y: how the surface bends, 1/2 flat, less in hollows,
- *                                more on ridges. Taken from a picture of half the size, of its four nearest pixels those
- *                                that lie as deep as the point
+ *                                more on ridges. Taken from a picture of half the size, of its four nearest pixels
+ *                                those that lie as deep as the point
  *              shadowed(e, n)    how much of the first lamp is seen, 0..1. What stands in the way is looked for first:
  *                                the farther it is from the point, the wider the shadow's edge
  * Units:   millimetres, linear light.

@@ -15,8 +15,8 @@
 
 namespace {
 
-const glm::vec3 stored_colour(0.42f, 0.50f, 0.60f); /* cool: space that is kept */
-const glm::vec3 crossing_colour(0.72f, 0.45f, 0.28f); /* warm: clay */
+const glm::vec3 stored_colour(0.33f, 0.43f, 0.55f); /* cool: space that is kept */
+const glm::vec3 crossing_colour(0.62f, 0.33f, 0.17f); /* warm: clay */
 
 /* --- sets of 512 --- */
 

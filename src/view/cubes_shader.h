@@ -47,20 +47,20 @@ uniform int u_light_count;
 uniform vec3 u_light_place[4];
 uniform vec3 u_light_colour[4];
 
-const vec3 SKY = vec3(0.40, 0.43, 0.47);
-const vec3 GROUND = vec3(0.15, 0.13, 0.12);
-const float LINE = 0.28; /* of the light that is left on a line */
+const vec3 SKY = vec3(0.15, 0.165, 0.185);
+const vec3 GROUND = vec3(0.045, 0.04, 0.035);
+const float LINE = 0.22; /* of the light that is left on a line */
 
 void main()
 {
     vec3 n = normalize(v_normal);
-    vec3 light = mix(GROUND, SKY, 0.5 + 0.5 * n.y) + 0.10 * max(dot(n, -normalize(v_eye)), 0.0);
+    vec3 light = mix(GROUND, SKY, 0.5 + 0.5 * n.y) + 0.06 * max(dot(n, -normalize(v_eye)), 0.0);
     for (int i = 0; i < u_light_count; i++)
-        light += 0.8 * u_light_colour[i] * max(dot(n, normalize(u_light_place[i] - v_eye)), 0.0);
+        light += 0.72 * u_light_colour[i] * max(dot(n, normalize(u_light_place[i] - v_eye)), 0.0);
     vec2 pixel = max(fwidth(v_place), vec2(1e-6));
     vec2 away = min(v_place, 1.0 - v_place) / pixel;
     float line = 1.0 - smoothstep(0.4, 1.2, min(away.x, away.y));
-    line *= smoothstep(3.0, 9.0, 1.0 / max(pixel.x, pixel.y));
+    line *= smoothstep(2.5, 7.0, 1.0 / max(pixel.x, pixel.y));
     f_colour = vec4(highlight(u_colour * light) * mix(1.0, LINE, line), 1.0);
 }
 )";

@@ -3,15 +3,12 @@
  *       once; they stand where they are; too many become bricks.
  * Method: seeded corners across brick and span borders; the set and its faces once more from clay_read, cube by cube.
  *         The picture of a block of corners is compared with its projected outline. */
+#include "bare_frame.h"
 #include "field_fill.h"
-#include "platform/display/display.h"
 #include "view/cubes.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <random>
 #include <set>
 #include <tuple>
@@ -147,25 +144,12 @@ TEST(view_cubes, are_bricks_where_there_are_too_many)
 
 /* --- on the device --- */
 
-class view_cubes_drawn : public testing::Test {
+class view_cubes_drawn : public bare_frame {
   protected:
-    static constexpr int width = 320, height = 240;
-
     void SetUp() override
     {
-        display_trouble missing;
-        screen = display_open(DISPLAY_HEADLESS, &missing);
-        ASSERT_NE(screen, nullptr) << missing.text;
-        ASSERT_TRUE(display_make_current(screen, &missing)) << missing.text;
-        glGenFramebuffers(1, &frame_buffer);
-        glGenRenderbuffers(2, buffers);
-        glBindFramebuffer(GL_FRAMEBUFFER, frame_buffer);
-        attach(buffers[0], GL_RGBA8, GL_COLOR_ATTACHMENT0);
-        attach(buffers[1], GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
-        ASSERT_EQ(glCheckFramebufferStatus(GL_FRAMEBUFFER), GLenum{GL_FRAMEBUFFER_COMPLETE});
+        bare_frame::SetUp();
         ASSERT_TRUE(cubes_open(&it, &trouble)) << trouble;
-        s.camera_distance = 100;
-        s.field_of_view = 0.5;
         s.lights[0].lit = true;
         s.lights[0].position = {-60, 90, 120};
     }
@@ -173,34 +157,14 @@ class view_cubes_drawn : public testing::Test {
     void TearDown() override
     {
         cubes_close(&it);
-        display_close(screen);
+        bare_frame::TearDown();
     }
 
-    static void attach(GLuint to, GLenum format, GLenum where)
-    {
-        glBindRenderbuffer(GL_RENDERBUFFER, to);
-        glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, where, GL_RENDERBUFFER, to);
-    }
-
-    /* Red of each pixel, bottom row first; the ground is 0. */
     std::vector<int> draw()
     {
-        const glm::dvec3 all(200);
-        const projection p = projection_make(
-            s, width, height, {projection_ball_of_box(projection_eye_from_world(s), -all, all)});
-        glViewport(0, 0, width, height);
-        glClearColor(0, 0, 0, 1);
-        glEnable(GL_DEPTH_TEST);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        cubes_draw(it, s, p);
-        EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
-        std::vector<uint8_t> bytes(size_t{width} * height * 4);
-        glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
-        std::vector<int> red;
-        for (size_t n = 0; n < bytes.size(); n += 4)
-            red.push_back(bytes[n]);
-        return red;
+        begin();
+        cubes_draw(it, s, project());
+        return end();
     }
 
     /* Left, right, bottom, top ends of what is drawn. */
@@ -209,7 +173,7 @@ class view_cubes_drawn : public testing::Test {
         std::array<int, 4> e = {width, 0, height, 0};
         for (int y = 0; y < height; y++)
             for (int x = 0; x < width; x++)
-                if (red[static_cast<size_t>(y) * width + static_cast<size_t>(x)] > 0)
+                if (at(red, x, y) > 0)
                     e = {std::min(e[0], x), std::max(e[1], x + 1), std::min(e[2], y), std::max(e[3], y + 1)};
         return e;
     }
@@ -234,11 +198,7 @@ class view_cubes_drawn : public testing::Test {
         EXPECT_NEAR(e[3], height / 2.0 + f * hi.y, 1.01);
     }
 
-    display *screen = nullptr;
-    GLuint frame_buffer = 0, buffers[2] = {0, 0};
     cubes it;
-    snapshot s;
-    std::string trouble;
 };
 
 TEST_F(view_cubes_drawn, stand_where_their_corners_are)
@@ -267,7 +227,7 @@ TEST_F(view_cubes_drawn, are_closed_and_show_their_outside_from_every_side)
             int holes = 0;
             for (int y = e[2] + 1; y < e[3] - 1; y++)
                 for (int x = e[0] + 1; x < e[1] - 1; x++)
-                    holes += red[static_cast<size_t>(y) * width + static_cast<size_t>(x)] == 0;
+                    holes += at(red, x, y) == 0;
             EXPECT_EQ(holes, 0) << axis << " " << way;
         }
     }

@@ -351,7 +351,7 @@ void cubes_draw(const cubes &c, const snapshot &s, const projection &p)
     set_lights(c, s, p);
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
-    glFrontFace(GL_CCW);
+    glFrontFace(projection_is_mirrored(p) ? GL_CW : GL_CCW);
     glBindVertexArray(c.array);
     for (const cubes_span &span : c.shown.spans) {
         const glm::dvec3 from = s.step_mm * double{BRICK_EDGE} * glm::dvec3(span.at.i, span.at.j, span.at.k);
@@ -361,5 +361,6 @@ void cubes_draw(const cubes &c, const snapshot &s, const projection &p)
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(span.count));
     }
     glBindVertexArray(0);
+    glFrontFace(GL_CCW);
     glDisable(GL_CULL_FACE);
 }

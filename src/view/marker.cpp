@@ -42,7 +42,7 @@ constexpr double hatch_pixels = 11;              /* from stripe to stripe, at 10
 constexpr float line_width_at_1080 = 1.25f, line_width_working = 1.5f; /* pixels; factor */
 constexpr float meeting_alpha = 0.9f, meeting_pixels = 1.5f, meeting_units = 64; /* of polygon offset */
 constexpr float shadow_alpha = 0.45f;
-constexpr double halo_part = 2.8, ring_part = 1.9; /* of a light's radius */
+constexpr double ring_part = 1.9; /* of a light's radius */
 constexpr float halo_alpha = 0.5f;
 constexpr int ring_sides = 40;
 
@@ -146,7 +146,7 @@ void paint(const marker_program &p, style how, const glm::vec3 &colour, float al
     glUniform1f(p.hatch, 0);
 }
 
-void hatch(const marker_program &p, int height)
+void hatch(const marker_program &p, double height)
 {
     glUniform1f(p.hatch, std::max(static_cast<float>(hatch_pixels * height / 1080), 6.0f));
 }
@@ -166,6 +166,12 @@ void end_blending()
     glDepthFunc(GL_LEQUAL);
 }
 
+/* Which way front faces wind: turned by a frame that turns left into right, and by a mirrored picture. */
+GLenum front_of(const glm::dmat4 &eye_from_marker, const projection &p)
+{
+    return (glm::determinant(glm::dmat3(eye_from_marker)) < 0) != projection_is_mirrored(p) ? GL_CW : GL_CCW;
+}
+
 bool is_drawable(const glm::dmat4 &m)
 {
     for (int column = 0; column < 4; column++)
@@ -182,7 +188,7 @@ bool is_drawable(const glm::dmat4 &m)
 struct tool_geometry {
     const marker *of;
     const upload *patches;
-    bool mirrored; /* the frame turns left into right: front faces wind the other way */
+    GLenum front;
 
     void triangles() const
     {
@@ -196,13 +202,13 @@ struct tool_geometry {
 };
 
 /* Triangles' sides lie about a step apart. Where that is a few pixels they would fill the tool up: thin them out. */
-float thinned(const tool_geometry &g, const snapshot &s, const glm::dmat4 &eye_from_tool, int height)
+float thinned(const tool_geometry &g, const snapshot &s, const glm::dmat4 &eye_from_tool, double height)
 {
     if (!g.patches)
         return 1;
     const double step_mm = std::cbrt(std::abs(glm::determinant(glm::dmat3(eye_from_tool))));
     const double ahead = std::max(-eye_from_tool[3].z, PROJECTION_NEAR_MIN * s.camera_distance);
-    const double step_pixels = step_mm * projection_pixels_per_mm(s, height, ahead);
+    const double step_pixels = step_mm * height * projection_pixels_per_mm(s, 1, ahead);
     return static_cast<float>(std::clamp(step_pixels / wire_step_pixels, wire_thinnest, 1.0));
 }
 
@@ -213,7 +219,7 @@ struct tool_picture {
     const marker_program &program;
     tool_geometry geometry;
     glm::dmat4 eye_from_tool;
-    int height;
+    double height; /* pixels of the whole picture */
 
     void lines(const glm::vec3 &colour, float alpha, bool hidden) const
     {
@@ -224,7 +230,7 @@ struct tool_picture {
                                {width, away, hidden});
             return;
         }
-        glLineWidth(std::clamp(width * static_cast<float>(height) / 1080, 1.0f, geometry.of->line_width_max));
+        glLineWidth(std::clamp(width * static_cast<float>(height / 1080), 1.0f, geometry.of->line_width_max));
         paint(program, STYLE_LINE, colour, alpha, away, 1);
         if (hidden)
             hatch(program, height);
@@ -239,7 +245,7 @@ glm::vec3 hidden_tool_colour(const snapshot &s) { return glm::mix(marker_tool_co
 void draw_hidden(const tool_picture &t, float alpha)
 {
     glEnable(GL_CULL_FACE);
-    glFrontFace(t.geometry.mirrored ? GL_CW : GL_CCW);
+    glFrontFace(t.geometry.front);
     glCullFace(GL_BACK);
     glDepthFunc(GL_GREATER);
     paint(t.program, STYLE_GLASS, hidden_tool_colour(t.s), alpha * glass_behind_clay, 1, glass_rim);
@@ -268,7 +274,7 @@ void draw_glass(const tool_picture &t)
     const float alpha = t.s.tool_working ? glass_alpha_working : glass_alpha;
     draw_hidden(t, alpha);
     glEnable(GL_CULL_FACE);
-    glFrontFace(g.mirrored ? GL_CW : GL_CCW);
+    glFrontFace(g.front);
     glCullFace(GL_FRONT);
     paint(t.program, STYLE_GLASS, colour, alpha, glass_far_side, glass_rim);
     g.triangles();
@@ -331,8 +337,7 @@ void draw_plumb(const marker &m, const snapshot &s, const projection &p)
     glPolygonOffset(-2, -8);
     if (is_drawable(eye_from_shadow)) {
         glEnable(GL_CULL_FACE);
-        /* x, y, z of the ball turn into a left-handed triple where the outline's half diameters do */
-        glFrontFace(glm::determinant(glm::dmat3(eye_from_shadow)) < 0 ? GL_CW : GL_CCW);
+        glFrontFace(front_of(eye_from_shadow, p));
         glCullFace(GL_BACK);
         place(m.globes, eye_from_shadow, p);
         const glm::mat3 as_it_is(1);
@@ -408,13 +413,15 @@ void draw_light(const marker &m, const snapshot &s, const projection &p, const s
     glBindVertexArray(m.array);
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
+    glFrontFace(front_of(eye_from_ball, p));
     place(m.globes, eye_from_ball, p);
     paint(m.globes, STYLE_GLOW, colour * 1.6f, 1, 1, 1);
     glDrawElements(GL_TRIANGLES, m.ball_indices, GL_UNSIGNED_SHORT, nullptr);
     begin_blending();
-    place(m.globes, glm::scale(eye_from_ball, glm::dvec3(halo_part)), p);
+    place(m.globes, glm::scale(eye_from_ball, glm::dvec3(MARKER_LIGHT_REACH / MARKER_LIGHT_RADIUS)), p);
     paint(m.globes, STYLE_HALO, colour, halo_alpha, 1, 1);
     glDrawElements(GL_TRIANGLES, m.ball_indices, GL_UNSIGNED_SHORT, nullptr);
+    glFrontFace(GL_CCW);
     glDisable(GL_CULL_FACE);
     if (light.with_viewer) {
         std::vector<hairline_line> ring;
@@ -531,7 +538,7 @@ void marker_draw_keeping(const marker &m, const snapshot &s, const projection &p
     glDisable(GL_CULL_FACE);
 }
 
-void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, const upload *patches, int height)
+void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, const upload *patches)
 {
     glm::dmat4 eye_from_tool;
     if (s.tool_style == SNAPSHOT_TOOL_HIDDEN || !marker_eye_from_tool(s, p, &eye_from_tool))
@@ -553,9 +560,9 @@ void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, c
     const tool_picture t = {s,
                             p,
                             program,
-                            {&m, patches, glm::determinant(glm::dmat3(eye_from_tool)) < 0},
+                            {&m, patches, front_of(eye_from_tool, p)},
                             eye_from_tool,
-                            height};
+                            hairline_picture_height(s, p)};
     if (patches)
         draw_meeting(t); /* first: glass leaves its own depth */
     if (s.tool_style == SNAPSHOT_TOOL_WIREFRAME)

@@ -33,7 +33,8 @@
 
 #include <string>
 
-constexpr double MARKER_LIGHT_RADIUS = 0.009; /* of camera_distance; its halo is three times as wide */
+constexpr double MARKER_LIGHT_RADIUS = 0.009; /* of camera_distance; of its ball */
+constexpr double MARKER_LIGHT_REACH = 2.8 * MARKER_LIGHT_RADIUS; /* of its halo */
 constexpr double MARKER_TICK_MM = 10;         /* from mark to mark on the box; ten times that on very large ones */
 
 struct marker_program {
@@ -62,8 +63,7 @@ void marker_draw_box(const marker &m, const snapshot &s, const projection &p);
 /* In the lower right corner, before everything: green, amber, or red and larger. */
 void marker_draw_keeping(const marker &m, const snapshot &s, const projection &p);
 void marker_draw_lights(const marker &m, const snapshot &s, const projection &p);
-/* patches: those of s.tool_surface, made with lines; NULL for an ellipsoid. height: of the picture, pixels. A stencil
-   buffer is cleared and left zero. */
-void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, const upload *patches, int height);
+/* patches: those of s.tool_surface, made with lines; NULL for an ellipsoid. A stencil buffer is cleared and left zero. */
+void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, const upload *patches);
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "view/plumb.h"
 
+#include "view/wheel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -63,7 +65,7 @@ bool is_finite(const glm::dvec3 &v) { return std::isfinite(v.x) && std::isfinite
 bool plumb_of(const snapshot &s, plumb *out)
 {
     glm::dvec3 half, middle_tool;
-    if (s.tool_style == SNAPSHOT_TOOL_HIDDEN || !(s.box_shown || s.effects.floor) ||
+    if (s.tool_style == SNAPSHOT_TOOL_HIDDEN || !(s.box_shown || wheel_is_wanted(s)) ||
         !extent_of(s, &half, &middle_tool))
         return false;
     const glm::dmat4 world_from_tool = projection_of_frame(s.tool_world);

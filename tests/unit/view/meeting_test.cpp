@@ -24,7 +24,7 @@ class view_meeting : public bare_frame {
         ASSERT_TRUE(upload_update(&patches, &form.it->surface, UPLOAD_ALL, &trouble)) << trouble;
         s.tool_surface = &form.it->surface;
         s.tool_style = SNAPSHOT_TOOL_TRANSPARENT;
-        s.box_shown = s.effects.floor = false;
+        s.box_shown = false;
     }
 
     void TearDown() override
@@ -45,7 +45,7 @@ class view_meeting : public bare_frame {
         const glm::dvec4 wall = p.clip_from_eye * glm::dvec4(0, 0, -s.camera_distance, 1);
         glClearDepthf(static_cast<float>(0.5 + 0.5 * wall.z / wall.w));
         begin();
-        marker_draw_tool(it, s, p, &patches, height);
+        marker_draw_tool(it, s, p, &patches);
         return end();
     }
 

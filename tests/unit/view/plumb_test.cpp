@@ -37,11 +37,11 @@ TEST(view_plumb, hangs_from_the_tool_to_the_floor)
     s.tool_style = SNAPSHOT_TOOL_HIDDEN;
     EXPECT_FALSE(plumb_of(s, &l));
     s.tool_style = SNAPSHOT_TOOL_TRANSPARENT;
-    s.effects.floor = false;
-    EXPECT_TRUE(plumb_of(s, &l)) << "the box is still shown";
+    s.look = SNAPSHOT_LOOK_PLAIN;
+    EXPECT_TRUE(plumb_of(s, &l)) << "no turntable, but the box is still shown";
     s.box_shown = false;
     EXPECT_FALSE(plumb_of(s, &l));
-    s.effects.floor = true;
+    s.look = SNAPSHOT_LOOK_CLAY;
     EXPECT_TRUE(plumb_of(s, &l));
     s.tool_world.axis[1][0] = NAN;
     EXPECT_FALSE(plumb_of(s, &l));

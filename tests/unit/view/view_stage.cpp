@@ -115,7 +115,6 @@ snapshot view_stage::plain()
     s.field_of_view = 0.5;
     s.tool_style = SNAPSHOT_TOOL_HIDDEN;
     s.box_shown = false;
-    s.effects.floor = false;
     s.lights_shown = false;
     s.lights[0] = light_at(-100, 120, 200);
     return s;

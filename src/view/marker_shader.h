@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The stages for everything drawn that is not clay: the tool, the lights, the workspace box.
+ * What:    The stages for everything drawn that is not clay: the tool, the lights, a shadow on the floor.
  * Is not:  What is drawn, and in which order (marker.h). The fragment stage needs colour_shader.h before it, and serves
  *          patch_shader.h's vertices as well as its own.
- * Shape:   u_style picks one of four: see MARKER_ in marker.cpp. Alpha is straight.
+ * Shape:   u_style picks one of six: see STYLE_ in marker.cpp. Alpha is straight. Stripes lie across the screen, not on
+ *          the thing, so that they are as wide near and far and do not swim when it turns.
  * Units:   millimetres, linear light.
  */
 #ifndef GLAISE_VIEW_MARKER_SHADER_H
@@ -33,6 +34,7 @@ layout(location = 0) out vec4 f_colour;
 uniform int u_style;
 uniform vec4 u_colour;
 uniform vec2 u_alpha; /* turned away from the viewer, at the rim: parts of u_colour's */
+uniform float u_hatch; /* pixels from stripe to stripe; 0: none */
 
 void main()
 {
@@ -50,6 +52,15 @@ void main()
         colour += 0.35 * pow(max(dot(normalize(v_normal), normalize(vec3(-0.45, 0.65, 0.75))), 0.0), 40.0);
     } else if (u_style == 3) {
         colour *= mix(0.45, 1.15, smoothstep(0.0, 0.9, facing));
+    } else if (u_style == 4) {
+        float core = max(facing, 0.0) * max(facing, 0.0); /* 1 - (distance from the middle)^2 */
+        alpha *= core * core;
+    } else if (u_style == 5) {
+        alpha *= v_normal.y * v_normal.y; /* likewise, of a ball pressed flat */
+    }
+    if (u_hatch > 0.0) {
+        float at = abs(2.0 * fract((gl_FragCoord.x + gl_FragCoord.y) / u_hatch) - 1.0);
+        alpha *= mix(0.25, 1.0, smoothstep(0.5 - 1.5 / u_hatch, 0.5 + 1.5 / u_hatch, at));
     }
     f_colour = vec4(highlight(colour), alpha);
 }

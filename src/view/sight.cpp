@@ -2,6 +2,7 @@
 #include "view/sight.h"
 
 #include "view/marker.h"
+#include "view/plumb.h"
 #include "view/wheel.h"
 
 #include <cmath>
@@ -56,13 +57,15 @@ projection sight_of(const snapshot &s, const upload &patches, const upload &tool
     if (s.box_shown)
         held.push_back(projection_ball_of_box(eye_from_world, glm::dvec3(s.box_lo[0], s.box_lo[1], s.box_lo[2]),
                                               glm::dvec3(s.box_hi[0], s.box_hi[1], s.box_hi[2])));
+    if (plumb l; plumb_of(s, &l))
+        held.push_back(plumb_ball(l, eye_from_world));
     if (wheel_is_wanted(s))
         held.push_back(wheel_ball(s, eye_from_world));
     for (const snapshot_light &light : s.lights) {
         const glm::dvec4 at(light.position[0], light.position[1], light.position[2], 1);
         if (light.lit && s.lights_shown)
             held.push_back({glm::dvec3(light.with_viewer ? at : eye_from_world * at),
-                            MARKER_LIGHT_RADIUS * s.camera_distance});
+                            MARKER_LIGHT_REACH * s.camera_distance});
     }
     return projection_make(s, width, height, held);
 }

@@ -228,10 +228,9 @@ void draw_scene(view *v, setting *t, bool wheel)
     if (wheel)
         wheel_draw(v->turntable, t->s, t->p, t->light);
     lighting_release();
-    const int height = t->looks.height;
     marker_draw_box(v->markers, t->s, t->p);
     marker_draw_lights(v->markers, t->s, t->p);
-    marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr, height);
+    marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr);
     marker_draw_keeping(v->markers, t->s, t->p);
     glUseProgram(0);
     v->passes++;

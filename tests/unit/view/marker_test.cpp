@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Goal: tool, lights and box are drawn where they are and change no pixel elsewhere; what clay hides of the tool is
- *       fainter; the pedal shows; a freeform tool shows its own surface.
+ *       fainter, blue and striped; the pedal shows; a freeform tool shows its own surface.
  * Method: pictures with and without each of them are compared; where a change may lie comes from projecting the tool's
  *         bounding ball or the box's corners. */
+#include "view/marker.h"
 #include "view_stage.h"
 
 #include <algorithm>
@@ -101,7 +102,17 @@ double strength(const view_stage_picture &with, const view_stage_picture &withou
     return sum;
 }
 
-TEST_F(view_marker, what_clay_hides_of_the_tool_is_fainter)
+/* How much bluer than red a picture is than another, over the picture. */
+double blueness(const view_stage_picture &with, const view_stage_picture &without)
+{
+    double sum = 0;
+    for (int y = 0; y < with.height; y++)
+        for (int x = 0; x < with.width; x++)
+            sum += (with.linear(x, y, 2) - with.linear(x, y, 0)) - (without.linear(x, y, 2) - without.linear(x, y, 0));
+    return sum;
+}
+
+TEST_F(view_marker, what_clay_hides_of_the_tool_is_fainter_and_blue)
 {
     view_stage_piece wall;
     wall.ball({0, 0, 0}, 30, view_stage_rgba(120, 120, 120));
@@ -109,11 +120,38 @@ TEST_F(view_marker, what_clay_hides_of_the_tool_is_fainter)
     for (snapshot_tool_style style : {SNAPSHOT_TOOL_WIREFRAME, SNAPSHOT_TOOL_TRANSPARENT}) {
         snapshot before = with_tool(0, 0, 50, 8), behind = with_tool(0, 0, -50, 16); /* as large in the picture */
         before.tool_style = behind.tool_style = style;
-        const view_stage_picture none = draw(plain());
-        const double in_front = strength(draw(before), none), hidden = strength(draw(behind), none);
-        EXPECT_GT(hidden, 0.02 * in_front) << style;
-        EXPECT_LT(hidden, 0.5 * in_front) << style;
+        const view_stage_picture none = draw(plain()), seen = draw(before), hidden = draw(behind);
+        double light_seen = 0, light_hidden = 0;
+        for (int y = 0; y < height; y++) {
+            for (int x = 0; x < width; x++) {
+                light_seen += std::abs(seen.light(x, y) - none.light(x, y));
+                light_hidden += std::abs(hidden.light(x, y) - none.light(x, y));
+            }
+        }
+        EXPECT_GT(strength(hidden, none), 0.1 * strength(seen, none)) << style;
+        EXPECT_LT(light_hidden, 0.6 * light_seen) << style;
+        EXPECT_GT(blueness(hidden, none), 4 * std::abs(blueness(seen, none))) << style;
     }
+}
+
+TEST_F(view_marker, what_clay_hides_is_in_stripes)
+{
+    view_stage_piece wall;
+    wall.ball({0, 0, 0}, 30, view_stage_rgba(120, 120, 120));
+    update(wall);
+    snapshot s = with_tool(0, 0, -50, 20);
+    s.tool_style = SNAPSHOT_TOOL_TRANSPARENT;
+    const int tall = 540, wide = 720;
+    const view_stage_picture p = draw(s, wide, tall), none = draw(without_tool(s), wide, tall);
+    int turns = 0, way = 0, before = 0; /* going right through the middle the strength rises and falls, stripe by stripe */
+    for (int x = wide / 2 - 30; x < wide / 2 + 30; x++) {
+        const int now = p.apart(none, x, tall / 2);
+        const int step = now > before + 1 ? 1 : now < before - 1 ? -1 : 0;
+        turns += step != 0 && way != 0 && step != way;
+        way = step != 0 ? step : way;
+        before = now;
+    }
+    EXPECT_GE(turns, 10);
 }
 
 TEST_F(view_marker, a_ring_shows_where_the_tool_meets_the_clay)
@@ -221,23 +259,47 @@ TEST_F(view_marker, a_freeform_tool_shows_its_own_surface)
     EXPECT_EQ(view_count(it).uploaded_bytes, sent);
 }
 
-TEST_F(view_marker, lights_are_small_yellow_balls)
+TEST_F(view_marker, lights_are_small_balls_of_their_own_colour)
 {
     snapshot s = plain();
     s.lights[0] = light_at(20, 12, 5);
     const view_stage_picture none = draw(s);
     s.lights_shown = true;
-    const view_stage_picture p = draw(s);
     const auto inside = inside_ball(s, {20, 12, 5}, 0.03 * s.camera_distance, 0);
-    EXPECT_GT(p.changed(none), 10);
-    EXPECT_EQ(p.changed(none, outside(inside)), 0);
     const double f = focal_pixels(s) / (s.camera_distance - 5);
     const int x = static_cast<int>(width / 2 + 20 * f), y = static_cast<int>(height / 2 - 12 * f);
-    EXPECT_GT(p.linear(x, y, 0), 0.6);
-    EXPECT_GT(p.linear(x, y, 1), 0.5);
-    EXPECT_LT(p.linear(x, y, 2), 0.8 * p.linear(x, y, 1));
+    for (int own = 0; own < 3; own++) {
+        s.lights[0].colour = {0.2f, 0.2f, 0.2f};
+        s.lights[0].colour[static_cast<size_t>(own)] = 0.6f;
+        const view_stage_picture p = draw(s);
+        EXPECT_GT(p.changed(none), 10);
+        EXPECT_EQ(p.changed(none, outside(inside)), 0);
+        EXPECT_GT(p.linear(x, y, own), 0.7);
+        for (int other = 0; other < 3; other++)
+            if (other != own) {
+                EXPECT_LT(p.linear(x, y, other), 0.75 * p.linear(x, y, own)) << own;
+            }
+    }
     s.lights[0].lit = false;
     EXPECT_EQ(draw(s).apart(none), 0) << "nothing is drawn where no light is";
+}
+
+TEST_F(view_marker, a_light_that_goes_with_the_viewer_wears_a_ring)
+{
+    snapshot s = plain();
+    s.lights_shown = true;
+    s.lights[0] = light_at(20, 12, 5);
+    const view_stage_picture fixed = draw(s);
+    s.lights[0].with_viewer = true;
+    s.lights[0].position[2] -= s.camera_distance; /* the same place, said from the eye */
+    const view_stage_picture carried = draw(s);
+    const double f = focal_pixels(s) / (s.camera_distance - 5), radius = 1.9 * MARKER_LIGHT_RADIUS * s.camera_distance;
+    const double x = width / 2 + 20 * f, y = height / 2 - 12 * f;
+    const auto near_ring = [&](double px, double py) {
+        return std::abs(std::hypot(px - x, py - y) - radius * f) < 3;
+    };
+    EXPECT_GT(carried.changed(fixed, near_ring, 8), 20);
+    EXPECT_EQ(carried.changed(fixed, outside(near_ring), 8), 0);
 }
 
 TEST_F(view_marker, the_workspace_box_lies_along_its_sides)
@@ -270,6 +332,47 @@ TEST_F(view_marker, the_workspace_box_lies_along_its_sides)
                         }),
               0);
     EXPECT_EQ(p.apart(none, width / 2, height / 2), 0) << "its middle is empty";
+}
+
+/* A box seen straight on, in a tall picture: its lower front side and marks along it. */
+TEST_F(view_marker, the_box_has_a_mark_every_ten_millimetres)
+{
+    snapshot s = plain();
+    s.box_lo = {-35, -20, -10};
+    s.box_hi = {35, 25, 15};
+    s.box_shown = true;
+    const int wide = 960, tall = 720;
+    const view_stage_picture p = draw(s, wide, tall);
+    s.box_shown = false;
+    const view_stage_picture none = draw(s, wide, tall);
+    const double z = 14.2, f = focal_pixels(s, tall) / (s.camera_distance - z); /* half way along a mark, inwards */
+    for (int mm = -34; mm <= 34; mm++) {
+        const int x = static_cast<int>(wide / 2.0 + f * mm), y = static_cast<int>(tall / 2.0 + f * 20);
+        int most = 0;
+        for (int d = -1; d <= 1; d++)
+            most = std::max(most, p.apart(none, x + d, y));
+        EXPECT_EQ(most > 10, (mm + 35) % 10 == 0) << mm;
+    }
+}
+
+TEST_F(view_marker, sides_behind_are_fainter)
+{
+    snapshot s = plain();
+    s.box_lo = {-30, -20, -10};
+    s.box_hi = {30, 25, 15};
+    s.box_shown = true;
+    const view_stage_picture p = draw(s);
+    s.box_shown = false;
+    const view_stage_picture none = draw(s);
+    const auto strongest = [&](double z) { /* of a lower side */
+        const double f = focal_pixels(s) / (s.camera_distance - z);
+        int most = 0;
+        for (int d = -1; d <= 1; d++)
+            most = std::max(most, p.apart(none, width / 2 + 7, static_cast<int>(height / 2 + 20 * f) + d));
+        return most;
+    };
+    EXPECT_GT(strongest(-10), 8);
+    EXPECT_LT(strongest(-10), 0.8 * strongest(15));
 }
 
 TEST_F(view_marker, clay_hides_box_and_lights)

@@ -10,9 +10,8 @@
 namespace {
 
 constexpr size_t PIXEL_BYTES = 4;
-/* Of a tile, drawn pixels: with its margins it fills a part. A multiple of 1, 2, 3 and 4: no tile cuts a pixel. */
-constexpr int TILE_PIXELS = LARGE_PICTURE_PART_PIXELS - 2 * LARGE_PICTURE_MARGIN_PIXELS;
-static_assert(TILE_PIXELS % 12 == 0);
+constexpr int PATTERN_PIXELS = 4;
+static_assert(LARGE_PICTURE_TILE_PIXELS % 12 == 0);
 
 double light_of(double encoded)
 {
@@ -37,26 +36,25 @@ const encoding &encoding_of_srgb()
     return made;
 }
 
-bool fits_a_part(int width, int height)
+bool is_one_part(const large_picture_size &s)
 {
-    return width <= LARGE_PICTURE_PART_PIXELS && height <= LARGE_PICTURE_PART_PIXELS;
+    return std::max(s.width, s.height) * s.supersample <= LARGE_PICTURE_WHOLE_PIXELS;
 }
 
 /* Rows of the picture that a band has. */
 int band_rows_of(const large_picture_size &s)
 {
-    if (fits_a_part(s.width * s.supersample, s.height * s.supersample))
+    if (is_one_part(s))
         return s.height;
     const size_t room = LARGE_PICTURE_BAND_BYTES / (static_cast<size_t>(s.width) * PIXEL_BYTES);
-    return std::clamp(static_cast<int>(room), 1, TILE_PIXELS / s.supersample);
+    return std::clamp(static_cast<int>(room), 1, LARGE_PICTURE_TILE_PIXELS / s.supersample);
 }
 
 /* Draws a tile with its margins and keeps of it what is the tile's, at `out` in the band. */
 bool tile_draw(const large_picture &p, const large_picture_part &tile, uint8_t *out, std::string *text_out)
 {
     const int n = p.size.supersample, whole_width = p.size.width * n, whole_height = p.size.height * n;
-    const bool whole = tile.width == whole_width && tile.height == whole_height;
-    const int margin = whole ? 0 : LARGE_PICTURE_MARGIN_PIXELS;
+    const int margin = large_picture_margin(p.size);
     const int left = std::max(tile.x - margin, 0), top = std::max(tile.y - margin, 0);
     const large_picture_part part = {left, top, std::min(tile.x + tile.width + margin, whole_width) - left,
                                      std::min(tile.y + tile.height + margin, whole_height) - top};
@@ -75,7 +73,7 @@ bool tile_draw(const large_picture &p, const large_picture_part &tile, uint8_t *
 bool band_draw(large_picture *p, int y, std::string *text_out)
 {
     const int n = p->size.supersample, whole_width = p->size.width * n;
-    const int most = fits_a_part(whole_width, p->size.height * n) ? whole_width : TILE_PIXELS;
+    const int most = is_one_part(p->size) ? whole_width : LARGE_PICTURE_TILE_PIXELS;
     p->band_y = y;
     p->band_rows = 0;
     const int rows = std::min(band_rows_of(p->size), p->size.height - y);
@@ -103,6 +101,13 @@ std::string large_picture_trouble(const large_picture_size &s)
     return "a picture of " + size + " pixels" +
            (s.supersample > 1 ? ", drawn " + std::to_string(s.supersample) + " times as large" : "") +
            ": expected sides of 1 to " + std::to_string(most);
+}
+
+int large_picture_margin(const large_picture_size &s)
+{
+    const double wanted = LARGE_PICTURE_MARGIN_PART * s.height * s.supersample;
+    return std::clamp(static_cast<int>(std::ceil(wanted / PATTERN_PIXELS)) * PATTERN_PIXELS,
+                      LARGE_PICTURE_MARGIN_PIXELS, LARGE_PICTURE_MARGIN_MOST_PIXELS);
 }
 
 const uint8_t *large_picture_row(large_picture *p, int y, std::string *text_out)

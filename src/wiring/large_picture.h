@@ -4,14 +4,17 @@
  *          several drawn pixels become one.
  * Is not:  The drawing (view/view.h: view_draw_part); the file (exchange/picture.h); the two joined (stage.h).
  * Shape:   the whole is drawn `supersample` times as wide and as high as it will be: drawn pixels. It is cut into tiles,
- *          and each tile is drawn with a margin of LARGE_PICTURE_MARGIN_PIXELS round it, as far as the picture goes.
- *          The margin is thrown away: effects on the screen look that far for their neighbours.
+ *          and each tile is drawn with a margin round it, as far as the picture goes. The margin is thrown away: effects
+ *          on the screen look that far for their neighbours. How dark a hollow is depends on what lies within an eighth
+ *          of the picture's height (view/hollow.h), so that the margin grows with it, from LARGE_PICTURE_MARGIN_PIXELS
+ *          to LARGE_PICTURE_MARGIN_MOST_PIXELS: what is missed beyond that is faint, and to draw it would cost more than
+ *          the picture.
  *
  *              +-------------+      the tiles of one band are drawn, left to right, when its first row is asked for;
  *              | m a r g i n |      a band is as many rows as LARGE_PICTURE_BAND_BYTES have room for, and no more than
- *              |  +-------+  |      the part may be high
- *              |  | tile  |  |
- *              |  +-------+  |      no side of a part is more than LARGE_PICTURE_PART_PIXELS, which every device has
+ *              |  +-------+  |      a tile is high
+ *              |  | tile  |  |      a picture up to LARGE_PICTURE_WHOLE_PIXELS a side is one part, without margins;
+ *              |  +-------+  |      no part has more than LARGE_PICTURE_PART_PIXELS a side
  *              +-------------+
  *
  *          supersample x supersample drawn pixels become one by the mean of their light: decoded from sRGB, averaged,
@@ -20,8 +23,8 @@
  * Owner:   the caller; a value.
  * Errors:  large_picture_trouble says what is wrong with a size. A part that cannot be drawn: its sentence comes back
  *          from large_picture_row, and there is no picture.
- * Cost:    memory: a part and a band, whatever the size. A picture that a part has room for is drawn at once, without
- *          margins.
+ * Cost:    memory: a part and a band, whatever the size. With its margins a picture 2160 high is drawn 1.6 times over,
+ *          one 8192 high 4.3 times.
  * Source:  IEC 61966-2-1 for the encoding.
  */
 #ifndef GLAISE_WIRING_LARGE_PICTURE_H
@@ -35,9 +38,13 @@
 
 constexpr int LARGE_PICTURE_SIDE_MAX = 65536; /* in drawn pixels */
 constexpr int LARGE_PICTURE_SUPERSAMPLE_MAX = 4;
-constexpr int LARGE_PICTURE_MARGIN_PIXELS = 64;
-constexpr int LARGE_PICTURE_PART_PIXELS = 2048; /* what OpenGL ES 3 promises of a renderbuffer's side */
-constexpr size_t LARGE_PICTURE_BAND_BYTES = size_t{64} << 20;
+constexpr int LARGE_PICTURE_MARGIN_PIXELS = 64, LARGE_PICTURE_MARGIN_MOST_PIXELS = 1024;
+constexpr double LARGE_PICTURE_MARGIN_PART = 0.125; /* of the height, in between */
+constexpr int LARGE_PICTURE_WHOLE_PIXELS = 2048;    /* OpenGL ES 3.1 promises that much of a picture's side */
+constexpr int LARGE_PICTURE_TILE_PIXELS = 1920;     /* a multiple of 1, 2, 3 and 4: no tile cuts a pixel */
+/* Devices that we know have 4096 and more; one that has not says so. */
+constexpr int LARGE_PICTURE_PART_PIXELS = LARGE_PICTURE_TILE_PIXELS + 2 * LARGE_PICTURE_MARGIN_MOST_PIXELS;
+constexpr size_t LARGE_PICTURE_BAND_BYTES = size_t{128} << 20;
 
 /* As it will be. */
 struct large_picture_size {
@@ -63,6 +70,8 @@ struct large_picture {
 
 /* Empty where a picture of this size can be made. */
 std::string large_picture_trouble(const large_picture_size &size);
+/* In drawn pixels; a multiple of 4, as patterns on the screen are. */
+int large_picture_margin(const large_picture_size &size);
 /* The row y; those above the last band are gone. It holds until the next is asked for. NULL: why not. */
 const uint8_t *large_picture_row(large_picture *p, int y, std::string *text_out);
 

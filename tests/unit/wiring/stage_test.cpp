@@ -3,8 +3,8 @@
  * Goal:   a picture taken in tiles is the one the view draws whole; what cannot be taken leaves what was there; scenery is
  *         read, or told with file and place.
  * Method: a real view on a headless display; both pictures of a piece whose outline crosses the seams are compared pixel
- *         by pixel. A tile's vertices are rounded anew, so that an edge may fall on another side of a sample: such pixels
- *         are counted, and none of them may gather at a seam.
+ *         by pixel. Soft shadows have a grain that begins anew in every part, and a tile's vertices are rounded anew: single
+ *         pixels may differ, the means of small blocks by no more than a level. A seam would be seen in them.
  */
 #ifdef GLAISE_VIEW
 
@@ -21,6 +21,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -29,7 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int LIT = 90; /* of 255: brighter than the ground anywhere */
+constexpr int LIT = 90;   /* of 255: brighter than the ground anywhere */
+constexpr int BLOCK = 12; /* pixels */
 
 class stage_pictures : public testing::Test {
 protected:
@@ -122,7 +125,7 @@ protected:
 
 TEST_F(stage_pictures, tiles_are_the_picture_drawn_whole)
 {
-    constexpr int width = 2300, height = 2100, seam = 1920; /* both ways */
+    constexpr int width = 2300, height = 2100; /* a seam each way, at 1920 */
     std::string text;
     ASSERT_TRUE(stage_picture(scene, piece.get(), shown, {width, height, 1}, at("tiled.png"), &text)) << text;
     const picture_source tiled = read(at("tiled.png"));
@@ -130,23 +133,24 @@ TEST_F(stage_pictures, tiles_are_the_picture_drawn_whole)
     scene = nullptr;
     const std::vector<uint8_t> whole = drawn_whole(width, height);
     ASSERT_EQ(tiled.rgba.size(), whole.size());
-    int lit = 0, apart = 0, lit_at_seams = 0, apart_at_seams = 0;
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            const size_t p = 4 * (static_cast<size_t>(y) * width + static_cast<size_t>(x));
-            const uint8_t *a = &whole[p], *b = &tiled.rgba[p];
-            const bool at_seam = std::abs(x - seam) <= 4 || std::abs(y - seam) <= 4;
-            const bool differs = std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])}) > 1;
-            lit += std::max({a[0], a[1], a[2]}) > LIT;
-            lit_at_seams += at_seam && std::max({a[0], a[1], a[2]}) > LIT;
-            apart += differs;
-            apart_at_seams += differs && at_seam;
+    int lit = 0, blocks_apart = 0;
+    double most = 0;
+    for (int y = 0; y + BLOCK <= height; y += BLOCK)
+        for (int x = 0; x + BLOCK <= width; x += BLOCK) {
+            std::array<double, 3> apart{};
+            for (int n = 0; n < BLOCK * BLOCK; n++) {
+                const int at = 4 * ((y + n / BLOCK) * width + x + n % BLOCK);
+                for (size_t c = 0; c < 3; c++)
+                    apart[c] += whole[static_cast<size_t>(at) + c] - tiled.rgba[static_cast<size_t>(at) + c];
+                lit += whole[static_cast<size_t>(at)] > LIT;
+            }
+            for (const double sum : apart) {
+                most = std::max(most, std::abs(sum) / (BLOCK * BLOCK));
+                blocks_apart += std::abs(sum) > BLOCK * BLOCK;
+            }
         }
-    EXPECT_GT(lit, 300000); /* there is something to see */
-    EXPECT_GT(lit_at_seams, 3000);
-    EXPECT_LE(apart, lit / 1000);
-    EXPECT_LE(apart_at_seams, lit_at_seams / 200);
-    RecordProperty("apart", apart);
+    EXPECT_GT(lit, 300000); /* there is something to see, across both seams */
+    EXPECT_EQ(blocks_apart, 0) << "by up to " << most << " levels";
 }
 
 TEST_F(stage_pictures, several_pixels_become_one_by_their_light)
@@ -167,9 +171,9 @@ TEST_F(stage_pictures, told_parts_grow_to_the_whole)
 {
     std::string text;
     std::vector<double> parts;
-    ASSERT_TRUE(stage_picture(scene, piece.get(), shown, {2100, 4000, 1}, at("a.png"), &text,
+    ASSERT_TRUE(stage_picture(scene, piece.get(), shown, {2100, 2500, 1}, at("a.png"), &text,
                               [&](double part) { parts.push_back(part); })) << text;
-    EXPECT_EQ(parts.size(), 6u);
+    EXPECT_EQ(parts.size(), 4u);
     EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
     EXPECT_GT(parts.front(), 0);
     EXPECT_EQ(parts.back(), 1);

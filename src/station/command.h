@@ -83,11 +83,12 @@ enum command_kind {
     COMMAND_WORKSPACE_FIT,
     COMMAND_WORKSPACE_SHOWN,
     COMMAND_PICTURE,
+    COMMAND_TURNTABLE,
     COMMAND_EXPORT,
     COMMAND_COUNT,
 };
 
-enum { COMMAND_NUMBERS = 10 };
+enum { COMMAND_NUMBERS = 10, COMMAND_FRAMES_MAX = 9999 };
 
 struct command {
     int64_t time_us = 0;

@@ -60,6 +60,7 @@ struct station {
     showing shown;
 
     std::deque<std::string> pictures, exports, messages;
+    std::deque<station_turntable> turntables;
     std::vector<command> recording;
 };
 
@@ -406,6 +407,7 @@ void do_picture(station *s, const command &c)
     switch (c.kind) {
     case COMMAND_WORKSPACE_FIT: workspace_fit(s); break;
     case COMMAND_PICTURE: s->pictures.push_back(c.name); break;
+    case COMMAND_TURNTABLE: s->turntables.push_back({c.name, static_cast<int>(c.number[1])}); break;
     case COMMAND_EXPORT: s->exports.push_back(c.name); break;
     default: showing_do(&s->shown, c); break;
     }
@@ -547,6 +549,14 @@ static bool front_take(std::deque<std::string> *from, std::string *out)
 }
 
 bool station_picture_take(station *s, std::string *name_out) { return front_take(&s->pictures, name_out); }
+bool station_turntable_take(station *s, station_turntable *out)
+{
+    if (s->turntables.empty())
+        return false;
+    *out = std::move(s->turntables.front());
+    s->turntables.pop_front();
+    return true;
+}
 bool station_export_take(station *s, std::string *name_out) { return front_take(&s->exports, name_out); }
 bool station_scenery_take(station *s, std::string *name_out)
 {

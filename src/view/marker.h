@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Everything in the picture that is not clay: the tool, the lights as small yellow balls, the workspace box,
- *          the bead that says whether all is kept.
+ * What:    Everything in the picture that is not clay: the tool, the lights as small yellow balls, the workspace box.
  * Is not:  The ring on the clay where the tool meets it (clay_shader.h, drawn with the clay); menus.
  * Shape:   all are drawn after the clay, against its depth:
  *
@@ -51,8 +50,6 @@ bool marker_eye_from_tool(const snapshot &s, const projection &p, glm::dmat4 *ey
 glm::vec3 marker_tool_colour(const snapshot &s);
 
 void marker_draw_box(const marker &m, const snapshot &s, const projection &p);
-/* In the lower right corner, before everything: green, amber, or red and larger. */
-void marker_draw_keeping(const marker &m, const snapshot &s, const projection &p);
 void marker_draw_lights(const marker &m, const snapshot &s, const projection &p);
 /* patches: those of s.tool_surface, made with lines; NULL for an ellipsoid. height: of the picture, pixels. */
 void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, const upload *patches, int height);

@@ -8,6 +8,7 @@
 #include "view/lens.h"
 #include "view/lighting.h"
 #include "view/marker.h"
+#include "view/overlay.h"
 #include "view/program.h"
 #include "view/shadow.h"
 #include "view/sight.h"
@@ -34,6 +35,7 @@ struct view {
 
     skin clay_skin;
     marker markers;
+    overlay *words = nullptr; /* menus and the strip */
     wheel turntable;
     shadow lamp_shadow;
     hollow hollows;
@@ -114,6 +116,9 @@ bool open_all(view *v, std::string *trouble_out)
         *trouble_out = why;
         return false;
     }
+    v->words = overlay_open(trouble_out);
+    if (!v->words)
+        return false;
     v->around_is = SNAPSHOT_SCENERY_STUDIO;
     if (!v->limits.clay) {
         program_close(v->clay_skin.clay.program);
@@ -219,7 +224,6 @@ void draw_scene(view *v, setting *t, bool wheel)
     marker_draw_box(v->markers, t->s, t->p);
     marker_draw_lights(v->markers, t->s, t->p);
     marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr, height);
-    marker_draw_keeping(v->markers, t->s, t->p);
     glUseProgram(0);
     v->passes++;
     v->page_draws += static_cast<uint32_t>(v->clay.pages.size() + v->tool.pages.size());
@@ -281,6 +285,15 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
     return true;
 }
 
+/* Sharp, and the right way round, whatever was done to the picture. */
+void draw_words(const view &v, const snapshot &s, int width, int height, const view_part &part)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, v.last->framebuffer);
+    glViewport(0, 0, v.last->width, v.last->height);
+    overlay_draw(v.words, s, v.last->width, v.last->height, 0, {0, 1, 1, part.x, part.y, width, height});
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 setting setting_of(const view &v, const snapshot &s, int width, int height, const view_part &part)
 {
     setting t{s, width, height, part, quality_rules_of(v.pace.level), false, false, {}, {}};
@@ -324,6 +337,7 @@ void view_close(view *v)
     upload_finish(&v->tool);
     skin_close(&v->clay_skin);
     marker_close(&v->markers);
+    overlay_close(v->words);
     wheel_close(&v->turntable);
     shadow_close(&v->lamp_shadow);
     hollow_close(&v->hollows);
@@ -408,7 +422,9 @@ bool view_draw_part(view *v, const snapshot &s, int width, int height, const vie
         return false;
     cast_shadow(v, &t);
     const bool done = draw_eye(v, &t, trouble_out);
-    if (!done)
+    if (done)
+        draw_words(*v, s, width, height, part);
+    else
         v->last = nullptr;
     upload_drawn(&v->clay);
     upload_drawn(&v->tool);

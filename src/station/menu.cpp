@@ -302,7 +302,7 @@ const char *how_of(const menu &m)
     case SNAPSHOT_MENU_COLOUR: return "push towards a hue; twist for lighter; lift for stronger";
     case SNAPSHOT_MENU_CARRY: return "the puck moves the light";
     case SNAPSHOT_MENU_LEARN: return "press the pedal or button that you mean";
-    default: return m.way.back().pointed < 0 ? "push the puck towards what you want" : "";
+    default: return m.way.back().pointed < 0 ? "push the puck towards what you want, then press" : "";
     }
 }
 

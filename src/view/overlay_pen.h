@@ -28,7 +28,7 @@ constexpr double OVERLAY_PEN_LEAST = 7;       /* smaller letters are no letters 
 constexpr float OVERLAY_PEN_LARGE = 1.6f;     /* the middle's letters, of the others */
 
 /* Fired clay, slip and glaze. */
-constexpr ImU32 OVERLAY_PEN_GROUND = IM_COL32(0x1e, 0x17, 0x13, 0xe0), OVERLAY_PEN_LINE = IM_COL32(0x96, 0x72, 0x5a, 0xff),
+constexpr ImU32 OVERLAY_PEN_GROUND = IM_COL32(0x1e, 0x17, 0x13, 0xf4), OVERLAY_PEN_LINE = IM_COL32(0x96, 0x72, 0x5a, 0xff),
                 OVERLAY_PEN_TEXT = IM_COL32(0xf4, 0xe8, 0xda, 0xff), OVERLAY_PEN_QUIET = IM_COL32(0xc3, 0xae, 0x9b, 0xff),
                 OVERLAY_PEN_LIT = IM_COL32(0xb5, 0x64, 0x3c, 0xf4), OVERLAY_PEN_CHOSEN = IM_COL32(0xf0, 0xc2, 0x74, 0xff),
                 OVERLAY_PEN_GOOD = IM_COL32(0x86, 0xb8, 0x6c, 0xff), OVERLAY_PEN_WAITS = IM_COL32(0xf0, 0xa8, 0x38, 0xff),

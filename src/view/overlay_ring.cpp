@@ -10,6 +10,7 @@ namespace {
 
 constexpr double turn = 6.283185307179586;
 constexpr float RING_OUTER = 0.47f, RING_INNER = 0.47f; /* of the room's shorter side; of the outer radius */
+constexpr float RING_LABEL = 1.3f;                      /* of usual letters, where there is room */
 constexpr float GAUGE_OUTER = 0.27f;                    /* what is looked past is smaller */
 constexpr double GAUGE_OPEN = 0.125;                    /* of a turn each side of the bottom that a gauge leaves open */
 
@@ -53,12 +54,13 @@ void sector_draw(const overlay_pen &p, const place &at, const snapshot_menu_sect
     const bool has_icon = s.icon != SNAPSHOT_MENU_ICON_NONE, has_words = !s.label.empty();
     const float most = std::min(2.0f * radius * static_cast<float>(std::sin(std::min(width, turn / 3) / 2)) - 2.2f * gap,
                                 at.outer - at.inner + 2 * p.size);
-    const float icon = std::min((has_words ? 1.7f : 2.8f) * p.size, (at.outer - at.inner) * 0.5f);
+    const float icon = std::min((has_words ? 2.2f : 3.4f) * p.size, (at.outer - at.inner) * (has_words ? 0.36f : 0.5f));
+    const float label = std::max(p.size, std::min(RING_LABEL * p.size, (at.outer - at.inner) * 0.17f));
     if (has_icon)
         overlay_icon_draw(p, s.icon, ImVec2(middle.x, middle.y - (has_words ? icon * 0.45f : 0)), icon, ink,
                           overlay_pen_rgb(s.swatch));
     if (has_words)
-        overlay_pen_lines(p, lit, p.size, middle.x, middle.y + (has_icon ? icon * 0.62f + p.size * 0.1f : 0), most,
+        overlay_pen_lines(p, lit, label, middle.x, middle.y + (has_icon ? icon * 0.45f + label * 0.4f : 0), most,
                           lit || s.chosen ? ink : OVERLAY_PEN_TEXT, s.label);
     if (s.leads) { /* a notch outwards: there is more behind it */
         const ImVec2 tip = overlay_pen_round(at.middle, at.outer - gap * 1.4f, angle);
@@ -129,7 +131,7 @@ double gauge_angle(double part) { return turn * (0.5 + GAUGE_OPEN + part * (1 - 
 
 void how_draw(const overlay_pen &p, const place &at, const std::string &how)
 {
-    overlay_pen_lines(p, false, p.size * 0.8f, at.middle.x, at.middle.y + at.inner * 0.52f, at.inner * 1.25f,
+    overlay_pen_lines(p, false, p.size, at.middle.x, at.middle.y + at.inner * 0.5f, at.inner * 1.45f,
                       OVERLAY_PEN_QUIET, how);
 }
 
@@ -217,7 +219,7 @@ void colour_draw(const overlay_pen &p, const snapshot_menu &m, float bottom)
     const float most = std::min(2 * at.outer, p.width);
     p.list->AddRectFilled(ImVec2(at.middle.x - at.outer, y - p.size * 1.6f), ImVec2(at.middle.x + at.outer, y + p.size * 1.6f),
                           OVERLAY_PEN_GROUND, p.size * 0.5f);
-    overlay_pen_lines(p, false, p.size * 0.8f, at.middle.x, y, most - p.size, OVERLAY_PEN_QUIET, m.how);
+    overlay_pen_lines(p, false, p.size, at.middle.x, y, most - p.size, OVERLAY_PEN_QUIET, m.how);
 }
 
 void card_draw(const overlay_pen &p, const snapshot_menu &m, float bottom)

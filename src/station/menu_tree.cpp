@@ -536,5 +536,7 @@ std::string menu_tree_word(command_kind kind, size_t argument, double number)
 {
     std::string word(command_forms()[kind].arguments[argument].words[static_cast<size_t>(number)]);
     std::replace(word.begin(), word.end(), '-', ' ');
+    if (kind == COMMAND_MOVES && word.starts_with("light"))
+        word = "light " + std::to_string(std::stoi(word.substr(5)) + 1);
     return word;
 }

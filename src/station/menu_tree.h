@@ -111,7 +111,7 @@ menu_tree_page menu_tree_make(menu_tree_ring which, int argument, const menu_now
 std::string menu_tree_text(const menu_tree_value &v, const command &now);
 /* The numbers' size, on which `part` and the text are based. */
 double menu_tree_number(const menu_tree_value &v, const command &now);
-/* The word that a command's argument has for a number: "toothpaste". */
+/* The word that a command's argument has for a number: "toothpaste"; lights are counted from 1. */
 std::string menu_tree_word(command_kind kind, size_t argument, double number);
 
 #endif

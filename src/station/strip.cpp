@@ -96,7 +96,8 @@ snapshot_menu_strip strip_now(const strip_sight &s)
     }
     out.action = menu_tree_word(COMMAND_ACTION, 0, s.tool->kind);
     out.size = size_words(*s.tool);
-    out.rate = menu_tree_text({COMMAND_RATE, 0, 0, 0, MENU_TREE_TIMES, 0, 1, 1, "/s"}, {0, COMMAND_RATE, {s.tool->rate}, ""});
+    out.rate = "strength " + menu_tree_text({COMMAND_RATE, 0, 0, 0, MENU_TREE_TIMES, 0, 1, 1, ""},
+                                            {0, COMMAND_RATE, {s.tool->rate}, ""});
     out.undo = s.facts.strokes == 1 ? "1 stroke" : std::to_string(s.facts.strokes) + " strokes";
     for (int n = 0; n < 3; n++)
         out.rgb = out.rgb << 8 | colour_channel(s.tool->rgba, n);

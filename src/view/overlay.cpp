@@ -16,7 +16,7 @@ struct overlay {
     ImGuiContext *context = nullptr;
     std::string usual, bold; /* font files, whole; empty: none */
     std::string message;
-    ImFont *usual_font = nullptr, *bold_font = nullptr;
+    ImFont *usual_font = nullptr, *label_font = nullptr, *bold_font = nullptr;
     double size = 0; /* that the letters were drawn for */
     std::vector<overlay_pen_word> words;
 };
@@ -70,6 +70,7 @@ void letters_make(overlay *o, double size)
     ImFontAtlas *letters = ImGui::GetIO().Fonts;
     letters->Clear();
     o->usual_font = font_add(o->usual, size);
+    o->label_font = font_add(o->usual, std::round(size * OVERLAY_PEN_LABEL));
     o->bold_font = font_add(o->bold, std::round(size * OVERLAY_PEN_LARGE));
     unsigned char *coverage = nullptr;
     int width = 0, height = 0;
@@ -130,6 +131,7 @@ void overlay_draw(overlay *o, const snapshot &s, int width, int height, double p
     overlay_pen pen;
     pen.list = ImGui::GetBackgroundDrawList();
     pen.usual = o->usual_font;
+    pen.label = o->label_font;
     pen.bold = o->bold_font;
     pen.size = static_cast<float>(size);
     pen.width = static_cast<float>(wide);

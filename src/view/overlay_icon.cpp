@@ -110,8 +110,8 @@ void tool_icon(const square &q, snapshot_menu_icon icon)
     case SNAPSHOT_MENU_ICON_STAR: star_draw(q); break;
     case SNAPSHOT_MENU_ICON_SIZE:
         q.circle(0, 0, 0.9f);
-        q.circle(0, 0, 0.4f);
-        q.line({{0.28f, 0.28f}, {0.62f, 0.62f}});
+        q.circle(0, 0, 0.55f);
+        q.circle(0, 0, 0.22f);
         break;
     case SNAPSHOT_MENU_ICON_STRETCH:
         q.oval(0.4f, 0.65f);
@@ -194,8 +194,8 @@ void piece_icon(const square &q, snapshot_menu_icon icon)
 {
     switch (icon) {
     case SNAPSHOT_MENU_ICON_PIECE: /* a pot */
-        q.line({{-0.45f, -0.85f}, {0.45f, -0.85f}, {0.35f, -0.55f}, {0.8f, 0.1f}, {0.45f, 0.85f}, {-0.45f, 0.85f},
-                {-0.8f, 0.1f}, {-0.35f, -0.55f}},
+        q.line({{-0.5f, -0.9f}, {0.5f, -0.9f}, {0.32f, -0.6f}, {0.66f, -0.25f}, {0.8f, 0.1f}, {0.74f, 0.5f}, {0.45f, 0.9f},
+                {-0.45f, 0.9f}, {-0.74f, 0.5f}, {-0.8f, 0.1f}, {-0.66f, -0.25f}, {-0.32f, -0.6f}},
                true);
         break;
     case SNAPSHOT_MENU_ICON_UNDO: arrow_draw(q, -1); break;

@@ -32,6 +32,11 @@ std::vector<std::string> words_of(const std::string &text)
     return words;
 }
 
+ImFont *font_of(const overlay_pen &p, bool bold, float size)
+{
+    return bold ? p.bold : size > p.size ? p.label : p.usual;
+}
+
 } // namespace
 
 double overlay_pen_size(double width, double height, double pixels_per_mm)
@@ -45,7 +50,7 @@ double overlay_pen_size(double width, double height, double pixels_per_mm)
 float overlay_pen_width(const overlay_pen &p, bool bold, float size, const std::string &text)
 {
     const std::string said = p.ascii ? plain(text) : text;
-    return (bold ? p.bold : p.usual)->CalcTextSizeA(size, 1e9f, 0, said.c_str()).x;
+    return font_of(p, bold, size)->CalcTextSizeA(size, 1e9f, 0, said.c_str()).x;
 }
 
 float overlay_pen_fit(const overlay_pen &p, bool bold, float size, const std::string &text, float most)
@@ -62,7 +67,7 @@ void overlay_pen_text(const overlay_pen &p, bool bold, float size, float x, floa
     const std::string said = p.ascii ? plain(text) : text;
     const float width = overlay_pen_width(p, bold, size, text);
     const ImVec2 at(std::round(x - about * width), std::round(y - size / 2));
-    p.list->AddText(bold ? p.bold : p.usual, size, at, colour, said.c_str());
+    p.list->AddText(font_of(p, bold, size), size, at, colour, said.c_str());
     if (p.words)
         p.words->push_back({text, at.x, at.y, at.x + width, at.y + size});
 }

@@ -25,7 +25,8 @@ constexpr double OVERLAY_PEN_CAP = 0.597;
 constexpr double OVERLAY_PEN_SCREEN_MM = 336; /* the shorter side of a 27-inch screen: where none is known */
 constexpr double OVERLAY_PEN_LINES = 26;      /* at least so many lines of text a picture's shorter side */
 constexpr double OVERLAY_PEN_LEAST = 7;       /* smaller letters are no letters */
-constexpr float OVERLAY_PEN_LARGE = 1.6f;     /* the middle's letters, of the others */
+constexpr float OVERLAY_PEN_LABEL = 1.3f;     /* a sector's letters, of the usual ones, where there is room */
+constexpr float OVERLAY_PEN_LARGE = 1.6f;     /* the middle's */
 
 /* Fired clay, slip and glaze. */
 constexpr ImU32 OVERLAY_PEN_GROUND = IM_COL32(0x1e, 0x17, 0x13, 0xf4), OVERLAY_PEN_LINE = IM_COL32(0x96, 0x72, 0x5a, 0xff),
@@ -42,7 +43,7 @@ struct overlay_pen_word {
 
 struct overlay_pen {
     ImDrawList *list = nullptr;
-    ImFont *usual = nullptr, *bold = nullptr;
+    ImFont *usual = nullptr, *label = nullptr, *bold = nullptr; /* as large as they are drawn: enlarged they blur */
     float size = 16;              /* of a line of usual letters */
     float width = 0, height = 0;  /* of the picture */
     bool ascii = false;           /* the font has nothing else */

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double turn = 6.283185307179586;
 constexpr float RING_OUTER = 0.47f, RING_INNER = 0.47f; /* of the room's shorter side; of the outer radius */
-constexpr float RING_LABEL = 1.3f;                      /* of usual letters, where there is room */
 constexpr float GAUGE_OUTER = 0.27f;                    /* what is looked past is smaller */
 constexpr double GAUGE_OPEN = 0.125;                    /* of a turn each side of the bottom that a gauge leaves open */
 
@@ -55,7 +54,7 @@ void sector_draw(const overlay_pen &p, const place &at, const snapshot_menu_sect
     const float most = std::min(2.0f * radius * static_cast<float>(std::sin(std::min(width, turn / 3) / 2)) - 2.2f * gap,
                                 at.outer - at.inner + 2 * p.size);
     const float icon = std::min((has_words ? 2.2f : 3.4f) * p.size, (at.outer - at.inner) * (has_words ? 0.36f : 0.5f));
-    const float label = std::max(p.size, std::min(RING_LABEL * p.size, (at.outer - at.inner) * 0.17f));
+    const float label = std::max(p.size, std::min(OVERLAY_PEN_LABEL * p.size, (at.outer - at.inner) * 0.17f));
     if (has_icon)
         overlay_icon_draw(p, s.icon, ImVec2(middle.x, middle.y - (has_words ? icon * 0.45f : 0)), icon, ink,
                           overlay_pen_rgb(s.swatch));
@@ -101,6 +100,7 @@ void ring_draw(const overlay_pen &p, const snapshot_menu &m, float bottom)
 {
     const place at = ring_place(p, bottom);
     disc_draw(p, at);
+    p.list->AddCircleFilled(at.middle, at.inner, OVERLAY_PEN_GROUND | IM_COL32_A_MASK, 96); /* words on nothing else */
     p.list->AddCircle(at.middle, at.inner, OVERLAY_PEN_LINE, 96, std::max(1.0f, p.size / 18));
     const auto count = static_cast<int>(m.sectors.size());
     const double width = turn / std::max(count, 1);

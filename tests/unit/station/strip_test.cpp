@@ -33,6 +33,13 @@ TEST(strip, says_what_the_puck_holds_and_what_the_pedals_do)
     EXPECT_EQ(t.pedals[1], "as before");
 }
 
+TEST(strip, lights_are_counted_from_one_as_the_menu_does)
+{
+    menu_desk d;
+    d.do_line("moves puck0 light2");
+    EXPECT_EQ(station_snapshot(d.desk).strip.mode, "light 3");
+}
+
 TEST(strip, says_what_the_tool_is)
 {
     menu_desk d;
@@ -41,7 +48,7 @@ TEST(strip, says_what_the_tool_is)
     const snapshot_menu_strip t = station_snapshot(d.desk).strip;
     EXPECT_EQ(t.size, "12.5 mm");
     EXPECT_EQ(t.action, "soft eraser");
-    EXPECT_EQ(t.rate, "250 /s");
+    EXPECT_EQ(t.rate, "strength 250");
     EXPECT_EQ(t.rgb, 0x102030u);
 }
 

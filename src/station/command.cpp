@@ -27,7 +27,8 @@ command_argument count(const char *name) { return integer(name, -32768, 32767); 
 const std::vector<std::string_view> DOWN_UP{"up", "down"};
 const std::vector<std::string_view> ON_OFF{"off", "on"};
 const std::vector<std::string_view> MEANINGS{"nothing", "apply", "undo", "redo", "clutch", "next-action", "fork",
-                                             "environment-next", "menu", "raking", "silhouette", "plain", "mirror", "bare"};
+                                             "environment-next", "menu", "raking", "silhouette", "plain", "mirror",
+                                             "bare"};
 const std::vector<std::string_view> HOLDABLE{"raking", "silhouette", "plain", "mirror", "bare"};
 
 std::vector<std::string_view> action_names()

@@ -320,11 +320,11 @@ void doing_show(const menu &m, const sight &s, snapshot_menu *out)
     if (m.kind == SNAPSHOT_MENU_VALUE) {
         const menu_tree_value &v = m.doing.turned;
         const command now = menu_now(s, v.kind, v.index);
-        const double n = menu_tree_number(v, now);
         out->value = menu_tree_text(v, now);
-        out->part = v.law == MENU_TREE_EVEN ? (n - v.least) / (v.most - v.least)
-                                            : std::log(std::max(n, v.least) / v.least) / std::log(v.most / v.least);
-        out->part = std::clamp(out->part, 0.0, 1.0);
+        out->number = menu_tree_number(v, now);
+        out->least = v.least;
+        out->most = v.most;
+        out->times = v.law != MENU_TREE_EVEN;
         out->push = m.armed ? pushed(m.puck) : 0;
     } else if (m.kind == SNAPSHOT_MENU_COLOUR) {
         out->rgb = rgb_now(m, s);

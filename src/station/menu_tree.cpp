@@ -11,6 +11,7 @@ namespace {
 
 using sight = menu_now_sight;
 using icons = std::vector<snapshot_menu_icon>;
+using texts = std::vector<std::string>;
 
 constexpr double FIT_DISTANCE = 3.6; /* of half the diagonal: 1 / sin of half the field of view, and some air */
 
@@ -29,7 +30,7 @@ menu_tree_entry leads(const char *label, snapshot_menu_icon icon, menu_tree_ring
     return e;
 }
 
-menu_tree_entry does(const char *label, snapshot_menu_icon icon, std::vector<std::string> lines, bool closes = false)
+menu_tree_entry does(const char *label, snapshot_menu_icon icon, texts lines, bool closes = false)
 {
     menu_tree_entry e;
     e.label = label;
@@ -152,8 +153,7 @@ menu_tree_page shape_page(const sight &s)
     p.entries[2].value = s.tool->has_freeform ? "" : "none yet";
     p.entries.push_back(
         does("of the clay", SNAPSHOT_MENU_ICON_ADD,
-             s.has_piece ? std::vector<std::string>{"make-tool", "tool freeform"} : std::vector<std::string>{"make-tool"},
-             true));
+             s.has_piece ? texts{"make-tool", "tool freeform"} : texts{"make-tool"}, true));
     return p;
 }
 
@@ -360,8 +360,9 @@ menu_tree_page export_page(const sight &s)
         std::string ending = endings.substr(from, to - from);
         from = to + 1;
         ending.erase(0, ending.find_first_not_of("."));
-        p.entries.push_back(does(ending.c_str(), SNAPSHOT_MENU_ICON_EXPORT, {"export " + numbered("piece", s, ending)}));
-        p.entries.back().value = numbered("piece", s, ending);
+        const std::string name = numbered("piece", s, ending);
+        p.entries.push_back(does(ending.c_str(), SNAPSHOT_MENU_ICON_EXPORT, {"export " + name}));
+        p.entries.back().value = name;
     }
     return p;
 }
@@ -429,7 +430,8 @@ menu_tree_page means_page(const sight &s, int press, bool more)
 menu_tree_page feel_page(const sight &s)
 {
     return {"feel",
-            {turns(s, "moving", SNAPSHOT_MENU_ICON_MOVE, {COMMAND_SPEED, 0, 0, 0, MENU_TREE_TIMES, 5, 1000, 1, "mm a second"}),
+            {turns(s, "moving", SNAPSHOT_MENU_ICON_MOVE,
+                   {COMMAND_SPEED, 0, 0, 0, MENU_TREE_TIMES, 5, 1000, 1, "mm a second"}),
              turns(s, "turning", SNAPSHOT_MENU_ICON_REDO,
                    {COMMAND_SPEED, 0, 1, 1, MENU_TREE_TIMES, 5, 720, 1, "\xc2\xb0 a second"}),
              turns(s, "dead zone", SNAPSHOT_MENU_ICON_AIM, {COMMAND_FILTER, 0, 0, 0, MENU_TREE_EVEN, 0, 0.5, 100, "%"}),
@@ -472,7 +474,8 @@ menu_tree_page picture_page(menu_tree_ring which, const sight &s)
     case MENU_TREE_STEREO_SIDE:
         return layouts_page(s, "side by side", {SNAPSHOT_LAYOUT_SIDE_HALF, SNAPSHOT_LAYOUT_SIDE_FULL});
     case MENU_TREE_STEREO_TOP:
-        return layouts_page(s, "one above", {SNAPSHOT_LAYOUT_TOP_HALF, SNAPSHOT_LAYOUT_TOP_FULL, SNAPSHOT_LAYOUT_PACKED});
+        return layouts_page(s, "one above",
+                            {SNAPSHOT_LAYOUT_TOP_HALF, SNAPSHOT_LAYOUT_TOP_FULL, SNAPSHOT_LAYOUT_PACKED});
     case MENU_TREE_STEREO_WOVEN:
         return layouts_page(s, "woven", {SNAPSHOT_LAYOUT_ROWS, SNAPSHOT_LAYOUT_COLUMNS, SNAPSHOT_LAYOUT_CHECKER});
     default: return stereo_page(s);
@@ -519,7 +522,7 @@ double menu_tree_number(const menu_tree_value &v, const command &now)
     const auto &n = now.number;
     if (v.law == MENU_TREE_BOX)
         return std::max({n[3] - n[0], n[4] - n[1], n[5] - n[2]});
-    return *std::max_element(n.begin() + static_cast<ptrdiff_t>(v.first), n.begin() + static_cast<ptrdiff_t>(v.last) + 1);
+    return *std::max_element(&n[v.first], &n[v.last] + 1);
 }
 
 std::string menu_tree_text(const menu_tree_value &v, const command &now)

@@ -86,7 +86,8 @@ struct snapshot_menu {
     int pointed = -1;
     std::array<double, 2> puck{}; /* deflection, right and up, -1..1 */
     std::string value;            /* VALUE: the number with its unit */
-    double part = 0;              /* VALUE: where between least and most */
+    double number = 0, least = 0, most = 1; /* VALUE: where it is between what */
+    bool times = false;           /* VALUE: twice as much is as far as from half as much */
     double push = 0;              /* VALUE: how hard it is being turned, -1..1 */
     uint32_t rgb = 0, rgb_before = 0;
     double hue = 0, saturation = 0, lightness = 0; /* COLOUR: parts of a turn clockwise from the top, and 0..1 */

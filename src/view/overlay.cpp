@@ -101,7 +101,7 @@ overlay *overlay_open(std::string *trouble_out, const std::string &font_folder)
     if (o->usual.empty() || o->bold.empty()) {
         o->usual.clear();
         o->bold.clear();
-        o->message = font_folder + ": no Lato-Regular.ttf and Lato-Bold.ttf that can be read; the built-in letters serve";
+        o->message = font_folder + ": no Lato-Regular.ttf and Lato-Bold.ttf; the built-in letters serve";
     }
     return o.release();
 }
@@ -142,8 +142,8 @@ void overlay_draw(overlay *o, const snapshot &s, int width, int height, double p
     overlay_ring_draw(pen, s.menu, overlay_strip_height(pen, s));
     ImGui::Render();
     overlay_ink_draw(o->ink, ImGui::GetDrawData(),
-                     {eye.scale_x, eye.scale_y, eye.shift_pixels * eye.scale_x - eye.x, -static_cast<double>(eye.y), width,
-                      height});
+                     {eye.scale_x, eye.scale_y, eye.shift_pixels * eye.scale_x - eye.x, -static_cast<double>(eye.y),
+                      width, height});
 }
 
 bool overlay_message_take(overlay *o, std::string *text_out)

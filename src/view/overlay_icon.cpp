@@ -194,8 +194,8 @@ void piece_icon(const square &q, snapshot_menu_icon icon)
 {
     switch (icon) {
     case SNAPSHOT_MENU_ICON_PIECE: /* a pot */
-        q.line({{-0.5f, -0.9f}, {0.5f, -0.9f}, {0.32f, -0.6f}, {0.66f, -0.25f}, {0.8f, 0.1f}, {0.74f, 0.5f}, {0.45f, 0.9f},
-                {-0.45f, 0.9f}, {-0.74f, 0.5f}, {-0.8f, 0.1f}, {-0.66f, -0.25f}, {-0.32f, -0.6f}},
+        q.line({{-0.5f, -0.9f}, {0.5f, -0.9f}, {0.32f, -0.6f}, {0.66f, -0.25f}, {0.8f, 0.1f}, {0.74f, 0.5f},
+                {0.45f, 0.9f}, {-0.45f, 0.9f}, {-0.74f, 0.5f}, {-0.8f, 0.1f}, {-0.66f, -0.25f}, {-0.32f, -0.6f}},
                true);
         break;
     case SNAPSHOT_MENU_ICON_UNDO: arrow_draw(q, -1); break;
@@ -223,7 +223,8 @@ void piece_icon(const square &q, snapshot_menu_icon icon)
 
 } // namespace
 
-void overlay_icon_draw(const overlay_pen &p, snapshot_menu_icon icon, ImVec2 at, float size, ImU32 colour, ImU32 swatch)
+void overlay_icon_draw(const overlay_pen &p, snapshot_menu_icon icon, ImVec2 at, float size, ImU32 colour,
+                       ImU32 swatch)
 {
     const square q = {p.list, at, size / 2, std::max(1.0f, size / 14), colour};
     if (icon == SNAPSHOT_MENU_ICON_PEDAL) {

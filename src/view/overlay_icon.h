@@ -10,7 +10,8 @@
 #include "station/snapshot.h"
 #include "view/overlay_pen.h"
 
-void overlay_icon_draw(const overlay_pen &p, snapshot_menu_icon icon, ImVec2 at, float size, ImU32 colour, ImU32 swatch);
+void overlay_icon_draw(const overlay_pen &p, snapshot_menu_icon icon, ImVec2 at, float size, ImU32 colour,
+                       ImU32 swatch);
 /* A pedal from the side, up or pressed. */
 void overlay_icon_pedal(const overlay_pen &p, ImVec2 at, float size, ImU32 colour, bool down);
 

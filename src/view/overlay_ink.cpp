@@ -5,8 +5,6 @@
 #include "view/overlay_shader.h"
 #include "view/program.h"
 
-#include <imgui.h>
-
 #include <cstddef>
 
 bool overlay_ink_open(overlay_ink *k, std::string *trouble_out)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What:    Draws what Dear ImGui has laid out, with OpenGL ES 3.1, into the framebuffer that is bound.
- * Is not:  ImGui's own renderer: that loads desktop OpenGL and writes encoded colours. Clipping: nothing here is clipped.
+ * Is not:  ImGui's own renderer: that loads desktop OpenGL and writes encoded colours. Nothing is clipped.
  * Shape:   one buffer of vertices, one of indices, written anew for every picture; one texture of letters, R8.
  * Units:   pixels from the top left corner.
  * Owner:   the caller owns the struct; a zeroed one is closed. The context must be current throughout.
@@ -12,18 +12,17 @@
 #define GLAISE_VIEW_OVERLAY_INK_H
 
 #include <GLES3/gl31.h>
+#include <imgui/imgui.h>
 
 #include <cstdint>
 #include <string>
-
-struct ImDrawData;
 
 struct overlay_ink {
     GLuint program = 0, array = 0, vertices = 0, indices = 0, letters = 0;
     GLint scale = -1, shift = -1;
 };
 
-/* Layout pixels to pixels of the viewport, then to clip space: place * times + plus, in a viewport of width x height. */
+/* Layout pixels to those of a viewport of width x height: place * times + plus. */
 struct overlay_ink_fit {
     double times_x, times_y, plus_x, plus_y;
     int width, height;

@@ -97,7 +97,8 @@ void overlay_pen_lines(const overlay_pen &p, bool bold, float size, float x, flo
     }
 }
 
-void overlay_pen_arc(const overlay_pen &p, ImVec2 middle, float inner, float outer, double from, double to, ImU32 colour)
+void overlay_pen_arc(const overlay_pen &p, ImVec2 middle, float inner, float outer, double from, double to,
+                     ImU32 colour)
 {
     const int parts = std::max(2, static_cast<int>(std::ceil(std::fabs(to - from) * outer / 4)));
     p.list->PathArcTo(middle, (inner + outer) / 2, static_cast<float>(from - quarter), static_cast<float>(to - quarter),

@@ -4,8 +4,8 @@
  * Is not:  What is drawn (overlay_ring.h, overlay_strip.h, overlay_icon.h); OpenGL (overlay_ink.h).
  * Shape:   the size of letters comes from the screen's millimetres, so that they can be read standing:
  *
- *              capital letter   OVERLAY_PEN_CAP_MM     5 mm: at 1.2 m that is 14 minutes of arc. 6 can just be made out,
- *                                                      14 are read with ease
+ *              capital letter   OVERLAY_PEN_CAP_MM     5 mm: at 1.2 m that is 14 minutes of arc. 5 can just be made
+ *                                                      out, 14 are read with ease
  *              letter's line    cap / OVERLAY_PEN_CAP  what Lato's capitals are of its line
  *
  *          and is never more than what leaves room for a whole ring and a whole strip.
@@ -15,7 +15,7 @@
 #ifndef GLAISE_VIEW_OVERLAY_PEN_H
 #define GLAISE_VIEW_OVERLAY_PEN_H
 
-#include <imgui.h>
+#include <imgui/imgui.h>
 
 #include <string>
 #include <vector>
@@ -29,11 +29,15 @@ constexpr float OVERLAY_PEN_LABEL = 1.3f;     /* a sector's letters, of the usua
 constexpr float OVERLAY_PEN_LARGE = 1.6f;     /* the middle's */
 
 /* Fired clay, slip and glaze. */
-constexpr ImU32 OVERLAY_PEN_GROUND = IM_COL32(0x1e, 0x17, 0x13, 0xf4), OVERLAY_PEN_LINE = IM_COL32(0x96, 0x72, 0x5a, 0xff),
-                OVERLAY_PEN_TEXT = IM_COL32(0xf4, 0xe8, 0xda, 0xff), OVERLAY_PEN_QUIET = IM_COL32(0xc3, 0xae, 0x9b, 0xff),
-                OVERLAY_PEN_LIT = IM_COL32(0xb5, 0x64, 0x3c, 0xf4), OVERLAY_PEN_CHOSEN = IM_COL32(0xf0, 0xc2, 0x74, 0xff),
-                OVERLAY_PEN_GOOD = IM_COL32(0x86, 0xb8, 0x6c, 0xff), OVERLAY_PEN_WAITS = IM_COL32(0xf0, 0xa8, 0x38, 0xff),
-                OVERLAY_PEN_BAD = IM_COL32(0xe6, 0x48, 0x34, 0xff);
+constexpr ImU32 OVERLAY_PEN_GROUND = IM_COL32(0x1e, 0x17, 0x13, 0xf4);
+constexpr ImU32 OVERLAY_PEN_LINE = IM_COL32(0x96, 0x72, 0x5a, 0xff);
+constexpr ImU32 OVERLAY_PEN_TEXT = IM_COL32(0xf4, 0xe8, 0xda, 0xff);
+constexpr ImU32 OVERLAY_PEN_QUIET = IM_COL32(0xc3, 0xae, 0x9b, 0xff);
+constexpr ImU32 OVERLAY_PEN_LIT = IM_COL32(0xb5, 0x64, 0x3c, 0xf4);
+constexpr ImU32 OVERLAY_PEN_CHOSEN = IM_COL32(0xf0, 0xc2, 0x74, 0xff);
+constexpr ImU32 OVERLAY_PEN_GOOD = IM_COL32(0x86, 0xb8, 0x6c, 0xff);
+constexpr ImU32 OVERLAY_PEN_WAITS = IM_COL32(0xf0, 0xa8, 0x38, 0xff);
+constexpr ImU32 OVERLAY_PEN_BAD = IM_COL32(0xe6, 0x48, 0x34, 0xff);
 
 /* Words where they stand: tests look at them. */
 struct overlay_pen_word {
@@ -66,7 +70,8 @@ std::vector<std::string> overlay_pen_broken(const overlay_pen &p, bool bold, flo
 void overlay_pen_lines(const overlay_pen &p, bool bold, float size, float x, float y, float most, ImU32 colour,
                       const std::string &text);
 /* A thick arc from one angle to another, clockwise from the top, radians. */
-void overlay_pen_arc(const overlay_pen &p, ImVec2 middle, float inner, float outer, double from, double to, ImU32 colour);
+void overlay_pen_arc(const overlay_pen &p, ImVec2 middle, float inner, float outer, double from, double to,
+                     ImU32 colour);
 ImVec2 overlay_pen_round(ImVec2 middle, double radius, double angle); /* clockwise from the top, radians */
 ImU32 overlay_pen_rgb(unsigned rgb, unsigned alpha = 255);            /* 0xrrggbb */
 

@@ -41,18 +41,19 @@ void disc_draw(const overlay_pen &p, const place &at)
 
 /* --- a ring --- */
 
-void sector_draw(const overlay_pen &p, const place &at, const snapshot_menu_sector &s, double angle, double width, bool lit)
+void sector_draw(const overlay_pen &p, const place &at, const snapshot_menu_sector &s, double angle, double width,
+                 bool lit)
 {
     const float gap = std::max(1.0f, p.size / 10), radius = at.inner + 0.54f * (at.outer - at.inner);
     const double slack = gap / radius;
     if (lit)
-        overlay_pen_arc(p, at.middle, at.inner + gap, at.outer - gap, angle - width / 2 + slack, angle + width / 2 - slack,
-                        OVERLAY_PEN_LIT);
+        overlay_pen_arc(p, at.middle, at.inner + gap, at.outer - gap, angle - width / 2 + slack,
+                        angle + width / 2 - slack, OVERLAY_PEN_LIT);
     const ImVec2 middle = overlay_pen_round(at.middle, radius, angle);
     const ImU32 ink = s.chosen ? OVERLAY_PEN_CHOSEN : OVERLAY_PEN_TEXT;
     const bool has_icon = s.icon != SNAPSHOT_MENU_ICON_NONE, has_words = !s.label.empty();
-    const float most = std::min(2.0f * radius * static_cast<float>(std::sin(std::min(width, turn / 3) / 2)) - 2.2f * gap,
-                                at.outer - at.inner + 2 * p.size);
+    const auto chord = 2 * radius * static_cast<float>(std::sin(std::min(width, turn / 3) / 2));
+    const float most = std::min(chord - 2.2f * gap, at.outer - at.inner + 2 * p.size);
     const float icon = std::min((has_words ? 2.2f : 3.4f) * p.size, (at.outer - at.inner) * (has_words ? 0.36f : 0.5f));
     const float label = std::max(p.size, std::min(OVERLAY_PEN_LABEL * p.size, (at.outer - at.inner) * 0.17f));
     if (has_icon)
@@ -82,7 +83,8 @@ void middle_draw(const overlay_pen &p, const place &at, const std::string &title
     overlay_pen_text(p, false, title_size, at.middle.x, at.middle.y - big * 1.35f, 0.5f, OVERLAY_PEN_QUIET, title);
     overlay_pen_text(p, true, overlay_pen_fit(p, true, big, large, most), at.middle.x, at.middle.y, 0.5f,
                      OVERLAY_PEN_TEXT, large);
-    overlay_pen_lines(p, false, p.size, at.middle.x, at.middle.y + big * 1.4f, at.inner * 1.3f, OVERLAY_PEN_QUIET, small);
+    overlay_pen_lines(p, false, p.size, at.middle.x, at.middle.y + big * 1.4f, at.inner * 1.3f, OVERLAY_PEN_QUIET,
+                      small);
 }
 
 void puck_draw(const overlay_pen &p, const place &at, const snapshot_menu &m)
@@ -141,15 +143,23 @@ void title_draw(const overlay_pen &p, const place &at, const std::string &title)
                      at.middle.y - at.inner * 0.5f, 0.5f, OVERLAY_PEN_QUIET, title);
 }
 
+double part_of(const snapshot_menu &m)
+{
+    const double n = std::clamp(m.number, m.least, m.most);
+    return m.times ? std::log(n / m.least) / std::log(m.most / m.least) : (n - m.least) / (m.most - m.least);
+}
+
 void value_draw(const overlay_pen &p, const snapshot_menu &m, float bottom)
 {
     const place at = gauge_place(p, bottom);
     disc_draw(p, at);
     const float thin = std::max(2.0f, p.size / 5), radius = (at.inner + at.outer) / 2;
-    overlay_pen_arc(p, at.middle, radius - thin / 2, radius + thin / 2, gauge_angle(0), gauge_angle(1), OVERLAY_PEN_LINE);
-    if (m.part > 0.002)
-        overlay_pen_arc(p, at.middle, at.inner, at.outer - thin, gauge_angle(0), gauge_angle(m.part), OVERLAY_PEN_LIT);
-    const ImVec2 knob = overlay_pen_round(at.middle, radius, gauge_angle(m.part));
+    overlay_pen_arc(p, at.middle, radius - thin / 2, radius + thin / 2, gauge_angle(0), gauge_angle(1),
+                    OVERLAY_PEN_LINE);
+    const double part = part_of(m);
+    if (part > 0.002)
+        overlay_pen_arc(p, at.middle, at.inner, at.outer - thin, gauge_angle(0), gauge_angle(part), OVERLAY_PEN_LIT);
+    const ImVec2 knob = overlay_pen_round(at.middle, radius, gauge_angle(part));
     p.list->AddCircleFilled(knob, thin * 1.6f, OVERLAY_PEN_TEXT);
     if (std::fabs(m.push) > 0.01) /* how hard, and which way */
         overlay_pen_arc(p, at.middle, at.outer + thin * 0.5f, at.outer + thin * 1.3f, std::min(0.0, m.push),
@@ -217,7 +227,8 @@ void colour_draw(const overlay_pen &p, const snapshot_menu &m, float bottom)
     const bool above = p.width <= p.height - bottom;
     const float y = at.middle.y + (above ? -1 : 1) * (at.outer + p.size * 2.1f);
     const float most = std::min(2 * at.outer, p.width);
-    p.list->AddRectFilled(ImVec2(at.middle.x - at.outer, y - p.size * 1.6f), ImVec2(at.middle.x + at.outer, y + p.size * 1.6f),
+    p.list->AddRectFilled(ImVec2(at.middle.x - at.outer, y - p.size * 1.6f),
+                          ImVec2(at.middle.x + at.outer, y + p.size * 1.6f),
                           OVERLAY_PEN_GROUND, p.size * 0.5f);
     overlay_pen_lines(p, false, p.size, at.middle.x, y, most - p.size, OVERLAY_PEN_QUIET, m.how);
 }

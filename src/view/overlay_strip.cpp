@@ -24,7 +24,9 @@ struct item {
 
 ImU32 keeping_colour(snapshot_keeping k)
 {
-    return k == SNAPSHOT_KEEPING_ALL ? OVERLAY_PEN_GOOD : k == SNAPSHOT_KEEPING_FAILS ? OVERLAY_PEN_BAD : OVERLAY_PEN_WAITS;
+    return k == SNAPSHOT_KEEPING_ALL     ? OVERLAY_PEN_GOOD
+           : k == SNAPSHOT_KEEPING_FAILS ? OVERLAY_PEN_BAD
+                                         : OVERLAY_PEN_WAITS;
 }
 
 std::vector<item> items_of(const snapshot &s)
@@ -102,7 +104,8 @@ float fitted(const overlay_pen &p, std::vector<item> *items)
 void bar_draw(const overlay_pen &p, const snapshot &s)
 {
     std::vector<item> items = items_of(s);
-    const float size = fitted(p, &items), high = overlay_strip_height(p, s), y = p.height - high / 2, gap = gap_of(size);
+    const float size = fitted(p, &items), gap = gap_of(size);
+    const float high = overlay_strip_height(p, s), y = p.height - high / 2;
     p.list->AddRectFilled(ImVec2(0, p.height - high), ImVec2(p.width, p.height), OVERLAY_PEN_GROUND);
     p.list->AddLine(ImVec2(0, p.height - high), ImVec2(p.width, p.height - high), OVERLAY_PEN_LINE,
                     std::max(1.0f, p.size / 20));
@@ -110,7 +113,8 @@ void bar_draw(const overlay_pen &p, const snapshot &s)
                 right = width_of(p, items, size, ITEM_RIGHT);
     /* In the picture's middle, unless what stands at the sides is in the way. */
     const float most = std::max(left + gap, p.width - right - middle);
-    std::array<float, 3> x = {gap, std::clamp((p.width - middle) / 2, std::min(left + gap, most), most), p.width - right};
+    const float between = std::clamp((p.width - middle) / 2, std::min(left + gap, most), most);
+    std::array<float, 3> x = {gap, between, p.width - right};
     for (const item &i : items) {
         item_draw(p, i, size, x[i.side], y);
         x[i.side] += width_of(p, i, size) + gap;

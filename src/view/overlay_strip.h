@@ -3,8 +3,8 @@
  * What:    Draws the strip at the bottom, the toast above it, the card that says how to begin, and where there is no
  *          strip the dot that says whether all is kept.
  * Is not:  Their words (station/strip.h).
- * Shape:   what there is no room for is left out, the last of this list first: kept, pedals, tool in hand, mode, action,
- *          size, rate, strokes. What is left is made smaller until it fits.
+ * Shape:   what there is no room for is left out, the last of this list first: kept, pedals, action, mode, size, rate,
+ *          strokes. What is left is made smaller until it fits.
  *
  *              * kept  (puck) tool   |  \ apply  \ undo  \ clutch  |  (o) toothpaste  10 mm  8/s   12 strokes
  *

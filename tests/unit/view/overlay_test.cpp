@@ -10,6 +10,8 @@
 
 #include <GLES3/gl31.h>
 
+#include <algorithm>
+
 namespace {
 
 constexpr double desk_per_mm = 1920 / 597.7; /* a 27-inch screen */
@@ -133,7 +135,7 @@ snapshot turned(snapshot_menu_kind kind)
                  : kind == SNAPSHOT_MENU_COLOUR ? "push towards a hue; twist for lighter; lift for stronger"
                  : kind == SNAPSHOT_MENU_CARRY  ? "the puck moves the light"
                                                 : "press the pedal or button that you mean";
-    s.menu.part = 0.4;
+    s.menu.number = 0.4;
     s.menu.push = 0.7;
     s.menu.hue = 0.6;
     s.menu.saturation = s.menu.lightness = 0.5;

@@ -27,7 +27,8 @@ command_argument count(const char *name) { return integer(name, -32768, 32767); 
 const std::vector<std::string_view> DOWN_UP{"up", "down"};
 const std::vector<std::string_view> ON_OFF{"off", "on"};
 const std::vector<std::string_view> MEANINGS{"nothing", "apply", "undo", "redo", "clutch", "next-action", "fork",
-                                             "environment-next", "raking", "silhouette", "plain", "mirror", "bare"};
+                                             "environment-next", "menu", "raking", "silhouette", "plain", "mirror",
+                                             "bare"};
 const std::vector<std::string_view> HOLDABLE{"raking", "silhouette", "plain", "mirror", "bare"};
 
 std::vector<std::string_view> action_names()
@@ -133,6 +134,7 @@ std::vector<command_form> look_forms()
          {axis("AX"), axis("AY"), axis("AZ"), number("DEGREES", -TURN_DEGREES, TURN_DEGREES),
           number("DISTANCE", 0.1, 1e6)},
          "turns the scene and sets the eye's distance, mm"},
+        {COMMAND_DISTANCE, "distance", {number("DISTANCE", 0.1, 1e6)}, "sets the eye's distance alone, mm"},
         {COMMAND_CENTRE, "centre", {world("X"), world("Y"), world("Z")}, "the point that the eye looks at, mm"},
         {COMMAND_LOOK,
          "look",
@@ -199,7 +201,11 @@ std::vector<command_form> picture_forms()
         {COMMAND_KEEPING_SHOWN,
          "keeping-shown",
          {word("SHOWN", ON_OFF)},
-         "draws a bead in the corner or not: green when all is kept, amber until it is, red when it cannot be"},
+         "says in the corner whether all is kept: green when it is, amber until then, red when it cannot be"},
+        {COMMAND_STRIP_SHOWN,
+         "strip-shown",
+         {word("SHOWN", ON_OFF)},
+         "draws the strip at the bottom: what is kept, what the puck holds, what each pedal does, the tool"},
         {COMMAND_MATERIAL,
          "material",
          {number("SPECULAR", 0, 1), number("SHININESS", 1, 1000), number("AMBIENT", 0, 1)},
@@ -226,6 +232,10 @@ std::vector<command_form> picture_forms()
          "export",
          {{"FILE", COMMAND_NAME, 0, 0}},
          "the piece as it is now as a file, where pictures are wanted; its ending says which format"},
+        {COMMAND_NAMES_FROM,
+         "names-from",
+         {integer("N", 1, 999999)},
+         "the next picture or export that a menu asks for is called by this number, the one after it by the next"},
     };
 }
 

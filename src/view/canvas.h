@@ -5,7 +5,7 @@
  * Is not:  What is drawn (view.h); a screen or window (platform/display); a picture file (exchange/picture.h).
  * Shape:
  *              canvas: colour SRGB8_ALPHA8, N samples  --canvas_end-->  target: texture SRGB8_ALPHA8
- *                      depth 24 bit, N samples             (dropped)
+ *                      depth 24, stencil 8, N samples      (dropped)
  *
  *          N is what was asked for, CANVAS_SAMPLES at most, or what the machine has. Shaders write linear light; OpenGL
  *          encodes on the way in, so that blending and resolving happen in linear light. The texture's bytes are sRGB.

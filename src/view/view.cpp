@@ -4,10 +4,12 @@
 #include "view/backdrop_shader.h"
 #include "view/canvas.h"
 #include "view/colour_shader.h"
+#include "view/cubes.h"
 #include "view/hollow.h"
 #include "view/lens.h"
 #include "view/lighting.h"
 #include "view/marker.h"
+#include "view/overlay.h"
 #include "view/program.h"
 #include "view/shadow.h"
 #include "view/sight.h"
@@ -34,8 +36,12 @@ struct view {
     size_t budget_bytes = VIEW_ALL;
     const surface *tool_surface = nullptr;
 
+    const sculpture *piece = nullptr;
+    cubes structure; /* in place of the clay, where that is asked for */
+
     skin clay_skin;
     marker markers;
+    overlay *words = nullptr; /* menus and the strip */
     wheel turntable;
     shadow lamp_shadow;
     hollow hollows;
@@ -57,6 +63,8 @@ struct view {
 };
 
 namespace {
+
+constexpr double words_nearer = 0.004; /* than the screen: their parallax, of its width */
 
 /* What one eye's picture is drawn by. */
 struct setting {
@@ -118,10 +126,14 @@ bool open_all(view *v, std::string *trouble_out)
     if (!skin_open(&v->clay_skin, &why) ||
         !program_open("backdrop", {backdrop_shader_vertex}, {colour_shader_text, backdrop_shader_fragment},
                       &v->backdrop, &why) ||
-        !marker_open(&v->markers, &why) || !scenery_open(&v->around, SNAPSHOT_SCENERY_STUDIO, v->own, &why)) {
+        !marker_open(&v->markers, &why) || !cubes_open(&v->structure, &why) ||
+        !scenery_open(&v->around, SNAPSHOT_SCENERY_STUDIO, v->own, &why)) {
         *trouble_out = why;
         return false;
     }
+    v->words = overlay_open(trouble_out);
+    if (!v->words)
+        return false;
     v->around_is = SNAPSHOT_SCENERY_STUDIO;
     if (!v->limits.clay) {
         program_close(v->clay_skin.clay.program);
@@ -199,6 +211,8 @@ void find_hollows(view *v, setting *t, bool wheel)
 
 /* --- one picture --- */
 
+bool shows_cubes(const snapshot &s) { return s.structure != SNAPSHOT_STRUCTURE_SURFACE; }
+
 void draw_backdrop(const view &v, const setting &t)
 {
     const view_part &q = t.part;
@@ -224,14 +238,16 @@ void draw_scene(view *v, setting *t, bool wheel)
     canvas_begin(v->drawn);
     draw_backdrop(*v, *t);
     lighting_bind(t->light);
-    skin_draw(v->clay_skin, v->clay, t->s, t->p, t->light);
+    if (shows_cubes(t->s))
+        cubes_draw(v->structure, t->s, t->p);
+    else
+        skin_draw(v->clay_skin, v->clay, t->s, t->p, t->light);
     if (wheel)
         wheel_draw(v->turntable, t->s, t->p, t->light);
     lighting_release();
     marker_draw_box(v->markers, t->s, t->p);
     marker_draw_lights(v->markers, t->s, t->p);
     marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr);
-    marker_draw_keeping(v->markers, t->s, t->p);
     glUseProgram(0);
     v->passes++;
     v->page_draws += static_cast<uint32_t>(v->clay.pages.size() + v->tool.pages.size());
@@ -293,15 +309,28 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
     return true;
 }
 
+/* Sharp, and the right way round, whatever was done to the picture. */
+void draw_words(const view &v, const setting &t, double shift_pixels)
+{
+    const canvas_target &into = *v.last;
+    const double across = static_cast<double>(t.width) / t.looks.width,
+                 down = static_cast<double>(t.height) / t.looks.height;
+    glBindFramebuffer(GL_FRAMEBUFFER, into.framebuffer);
+    glViewport(0, 0, into.width, into.height);
+    overlay_draw(v.words, t.s, into.width, into.height, v.limits.pixels_per_mm,
+                 {shift_pixels, across, down, t.part.x, t.part.y, t.width, t.height});
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 /* All but the projection. */
 setting setting_of(const view &v, const snapshot &s, stereo_size size, stereo_size looks, const view_part &part)
 {
     setting t{s, size.width, size.height, looks, part, quality_rules_of(v.pace.level), false, false, {}, {}};
     const snapshot_look look = skin_look(v.clay_skin, s.look);
-    const bool lit = look == SNAPSHOT_LOOK_CLAY || look == SNAPSHOT_LOOK_RAKING;
+    const bool lit = !shows_cubes(s) && (look == SNAPSHOT_LOOK_CLAY || look == SNAPSHOT_LOOK_RAKING);
     t.rules.shadow_taps = lit && v.limits.shadows ? t.rules.shadow_taps : 0;
     t.rules.hollow_taps = lit && v.limits.hollows ? t.rules.hollow_taps : 0;
-    t.lens = v.limits.lens && t.rules.blur && s.effects.blur > 0;
+    t.lens = !shows_cubes(s) && v.limits.lens && t.rules.blur && s.effects.blur > 0;
     t.hollows = t.lens || (t.rules.hollow_taps > 0 && s.effects.occlusion > 0);
     t.light.scenery = &v.around;
     t.light.shadow = &v.lamp_shadow;
@@ -320,7 +349,10 @@ bool draw_mono(view *v, const snapshot &s, stereo_size size, const view_part &pa
     t.p = projection_of_part(project(*v, s, size), size.width, size.height, {part.x, part.y, part.width, part.height});
     t.light.lamps = lighting_lamps_of(s, t.p.eye_from_world);
     cast_shadow(v, &t);
-    return size_all(v, t, trouble_out) && draw_eye(v, &t, trouble_out);
+    if (!size_all(v, t, trouble_out) || !draw_eye(v, &t, trouble_out))
+        return false;
+    draw_words(*v, t, 0);
+    return true;
 }
 
 /* How near and far what is looked at reaches. */
@@ -374,6 +406,7 @@ bool draw_stereo(view *v, const snapshot &s, const stereo_screen &screen, const 
         t.light.mono_from_eye = glm::inverse(e.eye_from_mono);
         if (!size_all(v, t, trouble_out) || !draw_eye(v, &t, trouble_out))
             return false;
+        draw_words(*v, t, (eye == STEREO_LEFT ? 0.5 : -0.5) * words_nearer * looks.width);
         std::swap(v->eyes[eye], *v->last);
     }
     if (!canvas_target_size(&v->whole, part.width, part.height, trouble_out))
@@ -409,10 +442,12 @@ void view_close(view *v)
     canvas_close(&v->drawn);
     for (canvas_target *t : {&v->sharp, &v->blurred, &v->eye, &v->eyes[0], &v->eyes[1], &v->whole})
         canvas_target_close(t);
+    cubes_close(&v->structure);
     upload_finish(&v->clay);
     upload_finish(&v->tool);
     skin_close(&v->clay_skin);
     marker_close(&v->markers);
+    overlay_close(v->words);
     wheel_close(&v->turntable);
     shadow_close(&v->lamp_shadow);
     hollow_close(&v->hollows);
@@ -443,12 +478,15 @@ bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t b
 {
     static_assert(VIEW_ALL == UPLOAD_ALL && VIEW_FRAME_BYTES >= UPLOAD_BUDGET_LEAST_BYTES);
     v->budget_bytes = budget_bytes;
+    v->piece = s;
     return upload_update(&v->clay, &s->surface, budget_bytes, trouble_out);
 }
 
 void view_forget(view *v)
 {
     upload_clear(&v->clay);
+    cubes_clear(&v->structure);
+    v->piece = nullptr;
     v->lamp_shadow.generation = 0;
 }
 
@@ -492,6 +530,10 @@ bool view_draw_part(view *v, const snapshot &s, int width, int height, const vie
     if (s.tool_surface && !upload_update(&v->tool, s.tool_surface, v->budget_bytes, trouble_out))
         return false;
     if (!surround(v, s.scenery, trouble_out))
+        return false;
+    if (!shows_cubes(s) || !v->piece)
+        cubes_clear(&v->structure);
+    else if (!cubes_update(&v->structure, v->piece, s.structure, trouble_out))
         return false;
     const stereo_screen screen = {s.eyes.layout, s.eyes.swapped, width, height, stereo_gap_usual(height)};
     const bool two = v->both.program != 0 && s.eyes.layout != SNAPSHOT_LAYOUT_MONO;

@@ -63,6 +63,7 @@ struct view_counts {
 /* What a device is to do without, as if it could not: for trying what is left. */
 struct view_limits {
     int samples = 4;
+    double pixels_per_mm = 0; /* of the screen; 0: it does not say */
     bool clay = true, shadows = true, hollows = true, wheel = true, lens = true, stereo = true;
 };
 
@@ -75,7 +76,8 @@ const std::string &view_lacks(const view *v);
 /* The picture for SNAPSHOT_SCENERY_OWN. A bad one is refused, the one before stays. */
 [[nodiscard]] bool view_scenery(view *v, scenery_picture own, std::string *trouble_out);
 
-/* Brings what is shown up to date with the sculpture's surface. budget_bytes: what may be sent now; the rest waits for
+/* Brings what is shown up to date with the sculpture's surface. The sculpture must stay until it is forgotten: its
+   structure is looked at where that is to be drawn. budget_bytes: what may be sent now; the rest waits for
    the next update, see upload.h. It also holds, for the tool's own surface, in each view_draw until then. */
 [[nodiscard]] bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t budget_bytes = VIEW_ALL);
 /* Forgets every patch: before another sculpture is shown by the same view. */

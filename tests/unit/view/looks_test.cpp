@@ -252,7 +252,7 @@ TEST_F(view_looks, a_poorer_device_gives_a_poorer_picture_and_says_so)
     poor[3].wheel = false;
     poor[4].lens = false;
     poor[5].samples = 0;
-    poor[6] = {0, false, false, false, false, false, false};
+    poor[6] = {0, 0, false, false, false, false, false, false};
     for (size_t n = 0; n < poor.size(); n++) {
         view *v = view_open(&trouble, poor[n]);
         ASSERT_NE(v, nullptr) << trouble;

@@ -3,8 +3,9 @@
  * What:    Pixels as a PNG, delivered to a sink: snapshots, and the pictures tests compare.
  * Is not:  A renderer (view); a reader of PNG files (picture_source.h).
  * Shape:   8 bits a channel, RGB or RGBA (straight alpha), with an sRGB chunk: the bytes are display values. No time
- *          and no text chunks: same pixels, same bytes. Rows may lie bottom first, as OpenGL hands them over; or be made
- *          one after the other, from the top, for a picture that is not to lie in memory whole: the same bytes again.
+ *          and no text chunks: same pixels, same bytes. Rows may lie bottom first, as OpenGL hands them over; or be
+ *          made one after the other, from the top, for a picture that is not to lie in memory whole: the same bytes
+ *          again.
  * Owner:   the pixels stay the caller's.
  * Errors:  STATUS_BAD_PARAMETER for a side of 0 or above PICTURE_SIDE_MAX or channels other than 3 and 4;
  *          STATUS_NO_MEMORY; the sink's; that of whoever makes the rows. No byte leaves before the parameters are

@@ -56,7 +56,8 @@ struct half_sides {
 
 half_sides sides_of(const snapshot &s, double aspect)
 {
-    const double up = std::tan(0.5 * s.field_of_view) * (1 - CAMERA_AIR);
+    const angle_pair half = angle_sincos(0.5 * s.field_of_view);
+    const double up = half.sine / half.cosine * (1 - CAMERA_AIR);
     return {up * aspect, up};
 }
 
@@ -113,12 +114,12 @@ void camera_fit_turning(snapshot *s, const camera_boxes &boxes, double aspect)
         }
         rings.push_back({{radius, b.lo[1], 0}, {radius, b.hi[1], 0}});
     }
-    const double outside = 1 / std::cos(ANGLE_PI / places);
+    const double outside = 1 / angle_sincos(ANGLE_PI / places).cosine;
     const half_sides half = sides_of(*s, aspect);
     double distance = NEAREST_MM;
     for (int n = 0; n < places; n++) {
-        const double angle = 2 * ANGLE_PI * n / places;
-        const double x = outside * std::cos(angle), z = outside * std::sin(angle);
+        const angle_pair way = angle_sincos(2 * ANGLE_PI * n / places);
+        const double x = outside * way.cosine, z = outside * way.sine;
         for (const camera_box &b : rings)
             for (const double y : {b.lo[1] - middle[1], b.hi[1] - middle[1]}) {
                 const motion_vector p = motion_rotate(s->scene_turn, {x * b.lo[0], y, z * b.lo[0]});

@@ -75,10 +75,10 @@ void picture_options(CLI::App *app, arguments *a)
 void showing_options(CLI::App *app, arguments *a)
 {
     app->add_option("--settings", a->settings,
-                    "a tape with light, look and view, instead of the station's own. Of it what concerns the picture is "
-                    "done. The view's direction is kept and the piece fits the picture, unless a \"centre\" in it says "
-                    "what is looked at: then its distance is kept as well. The tool is not shown, the workspace and the "
-                    "lights only where it says so");
+                    "a tape with light, look and view, instead of the station's own. Of it what concerns the picture "
+                    "is done. The view's direction is kept and the piece fits the picture, unless a \"centre\" in it "
+                    "says what is looked at: then its distance is kept as well. The tool is not shown, the workspace "
+                    "and the lights only where it says so");
     picture_options(app, a);
 }
 
@@ -189,8 +189,8 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
     CLI::App *shelf = app.add_subcommand("shelf", "lists the pieces of a shelf, or does something with one");
     shelf_acts(shelf, &a);
     if (count > 1 && !task_is_known(app, words[1])) {
-        std::cerr << "glaise: " << words[1] << ": expected run, replay, export, picture, timelapse, info, check or shelf "
-                     "(glaise --help)\n";
+        std::cerr << "glaise: " << words[1] << ": expected run, replay, export, picture, timelapse, info, check "
+                     "or shelf (glaise --help)\n";
         *exit_out = ARGUMENTS_EXIT_WRONG;
         return std::nullopt;
     }

@@ -3,12 +3,12 @@
  * What:    A picture of any size out of parts that a device can draw: which parts, what of each is kept, and how
  *          several drawn pixels become one.
  * Is not:  The drawing (view/view.h: view_draw_part); the file (exchange/picture.h); the two joined (stage.h).
- * Shape:   the whole is drawn `supersample` times as wide and as high as it will be: drawn pixels. It is cut into tiles,
- *          and each tile is drawn with a margin round it, as far as the picture goes. The margin is thrown away: effects
- *          on the screen look that far for their neighbours. How dark a hollow is depends on what lies within an eighth
- *          of the picture's height (view/hollow.h), so that the margin grows with it, from LARGE_PICTURE_MARGIN_PIXELS
- *          to LARGE_PICTURE_MARGIN_MOST_PIXELS: what is missed beyond that is faint, and to draw it would cost more than
- *          the picture.
+ * Shape:   the whole is drawn `supersample` times as wide and as high as it will be: drawn pixels. It is cut into
+ *          tiles, and each tile is drawn with a margin round it, as far as the picture goes. The margin is thrown away:
+ *          effects on the screen look that far for their neighbours. How dark a hollow is depends on what lies within
+ *          an eighth of the picture's height (view/hollow.h), so that the margin grows with it, from
+ *          LARGE_PICTURE_MARGIN_PIXELS to LARGE_PICTURE_MARGIN_MOST_PIXELS: what is missed beyond that is faint, and to
+ *          draw it would cost more than the picture.
  *
  *              +-------------+      the tiles of one band are drawn, left to right, when its first row is asked for;
  *              | m a r g i n |      a band is as many rows as LARGE_PICTURE_BAND_BYTES have room for, and no more than

@@ -3,8 +3,8 @@
  * What:    A tape made ready for the station: read from its file, the recordings it names decoded and put in their
  *          places, the settings tape before it.
  * Is not:  The tape's grammar (station/tape.h) or the reports' (platform/spacemouse).
- * Shape:   commands in order of time; of equal times the tape's own order, then the recordings'. Files that a tape names
- *          lie beside it.
+ * Shape:   commands in order of time; of equal times the tape's own order, then the recordings'. Files that a tape
+ *          names lie beside it.
  * Owner:   a value.
  * Errors:  `text` names file, line, and what was expected; nothing is half taken.
  */

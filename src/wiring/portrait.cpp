@@ -47,6 +47,7 @@ snapshot portrait_of(const portrait &p, const sculpture *piece, double aspect, b
 {
     showing shown;
     shown.base.step_mm = piece->step_mm;
+    shown.base.look = SNAPSHOT_LOOK_CLAY; /* as the station begins */
     shown.base.box_shown = shown.base.lights_shown = false;
     for (const command &c : p.settings.commands)
         if (concerns_picture(c.kind))

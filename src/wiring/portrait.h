@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    How a piece is shown that nobody works on: as a tape of settings says, without tool and bead, and so that all
- *          of it is seen.
+ * What:    How a piece is shown that nobody works on: as a tape of settings says, without tool and bead, and so that
+ *          all of it is seen.
  * Is not:  How it is shown on the station (station/showing.h); the taking of the picture (stage.h).
  * Shape:   of the settings what concerns the picture is done, in their order; the rest is for hands. Then, unless they
  *          say with a `centre` what is looked at, the eye goes back or forth in its direction until the piece fits the

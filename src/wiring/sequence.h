@@ -3,8 +3,8 @@
  * What:    Pictures in a row: how their files are numbered, and the pictures of one turn on a turntable.
  * Is not:  One picture (stage.h); where the eye stands (station/camera.h); the life of a piece (timelapse.h).
  * Shape:   FILE-000.png, FILE-001.png ...: three digits or as many as the last number needs, so that names sort as they
- *          were taken. Of FRAMES pictures of a turn, number n has the piece turned by n / FRAMES of it: the first follows
- *          the last without a jump.
+ *          were taken. Of FRAMES pictures of a turn, number n has the piece turned by n / FRAMES of it: the first
+ *          follows the last without a jump.
  * Errors:  a sentence that begins with a path. The pictures before it are there, whole.
  */
 #ifndef GLAISE_WIRING_SEQUENCE_H

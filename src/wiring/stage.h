@@ -6,8 +6,8 @@
  *          (large_picture.h); many pictures in a row (sequence.h).
  * Owner:   stage_close.
  * Errors:  a sentence that begins with the path, but for stage_open; without a display the rest of the program goes on
- *          and says that there are no pictures. A picture that fails leaves no file, and what was there stays. A scenery
- *          that fails leaves the one before it.
+ *          and says that there are no pictures. A picture that fails leaves no file, and what was there stays. A
+ *          scenery that fails leaves the one before it.
  * Cost:    the first picture opens the display and compiles the shaders. A picture is drawn and written by the band: it
  *          takes the same memory whatever its size. Not for the frame path.
  */

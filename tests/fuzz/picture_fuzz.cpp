@@ -2,8 +2,8 @@
 /*
  * Goal    No bytes make the reader of PNG files read outside them, take more memory than its limit, or answer a picture
  *         that is not whole; what it refuses it refuses with a sentence; what it accepts can be written and read again.
- * Method  The input is the file, handed out in exact copies; then the same with the checksums of its chunks put right, so
- *         that what lies behind them is reached.
+ * Method  The input is the file, handed out in exact copies; then the same with the checksums of its chunks put right,
+ *         so that what lies behind them is reached.
  */
 #include "exchange/picture.h"
 #include "exchange/picture_source.h"

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Goal:   every kind of PNG becomes the pixels it stands for; what is none, is cut, is damaged or is too large is refused
- *         with the place and what was expected, before memory is taken for it.
- * Method: files are put together here chunk by chunk, from samples, with zlib and nothing else, and what has to come out
- *         is computed from the same samples by the format's own words. A source hands out exact copies and can fail.
+ * Goal:   every kind of PNG becomes the pixels it stands for; what is none, is cut, is damaged or is too large is
+ *         refused with the place and what was expected, before memory is taken for it.
+ * Method: files are put together here chunk by chunk, from samples, with zlib and nothing else, and what has to come
+ *         out is computed from the same samples by the format's own words. A source hands out exact copies and can
+ *         fail.
  */
 #include "bucket.h"
 
@@ -233,7 +234,7 @@ TEST(picture_source, what_else_a_file_says_is_passed_over_however_long)
 TEST(picture_source, what_is_no_png_is_told_at_its_beginning)
 {
     for (const std::string &bytes :
-         {std::string(), std::string("\x89PNG"), std::string("glaise tape 1\n"), std::string("\xff\xd8\xff\xe0JFIF....")})
+         {std::string(), std::string("\x89PNG"), std::string("glaise tape 1\n"), std::string("\xff\xd8\xff\xe0JFIF..")})
         expect_refused(read(bytes), STATUS_CORRUPT, "offset 0: expected the eight bytes that a PNG file begins with");
 }
 

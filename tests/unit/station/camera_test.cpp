@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Goal:   a piece that is to fit fits, at every angle of the turntable, and not loosely; turning keeps the axis where it is
- *         and comes round.
- * Method: points are projected here by the snapshot's own words; boxes of several shapes, directions, lenses and aspects.
+ * Goal:   a piece that is to fit fits, at every angle of the turntable, and not loosely; turning keeps the axis where
+ *         it is and comes round.
+ * Method: points are projected here by the snapshot's own words; boxes of several shapes, directions, lenses and
+ *         aspects.
  */
 #include "station/camera.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Goal:   a picture put together of tiles is the one drawn whole, byte for byte where the drawing of a pixel does not depend
- *         on the part it is drawn in; parts stay within what every device has, memory within the band; several pixels
- *         become one by the mean of their light.
- * Method: a drawing whose every pixel needs its neighbours as far as the margin reaches, and sees nothing beyond its part,
- *         stands for effects on the screen; sums are taken here. The real view is tiled in stage_test.cpp.
+ * Goal:   a picture put together of tiles is the one drawn whole, byte for byte where the drawing of a pixel does not
+ *         depend on the part it is drawn in; parts stay within what every device has, memory within the band; several
+ *         pixels become one by the mean of their light.
+ * Method: a drawing whose every pixel needs its neighbours as far as the margin reaches, and sees nothing beyond its
+ *         part, stands for effects on the screen; sums are taken here. The real view is tiled in stage_test.cpp.
  */
 #include "wiring/large_picture.h"
 

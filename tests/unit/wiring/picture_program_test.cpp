@@ -170,7 +170,8 @@ TEST_F(picture_program, a_turn_is_numbered_and_comes_from_all_sides)
     must("replay two.tape --export two.glaise");
     const outcome o = run("picture two.glaise turn.png --turntable 4 --width 120 --height 90");
     ASSERT_EQ(o.exit, 0) << o.err;
-    EXPECT_EQ(o.out, "wrote     turn-000.png\nwrote     turn-001.png\nwrote     turn-002.png\nwrote     turn-003.png\n");
+    EXPECT_EQ(o.out, "wrote     turn-000.png\nwrote     turn-001.png\n"
+                     "wrote     turn-002.png\nwrote     turn-003.png\n");
     EXPECT_NE(o.err.find("turning 100 %"), std::string::npos) << o.err;
     const auto front = red_columns(read("turn-000.png")), back = red_columns(read("turn-002.png"));
     EXPECT_LT(front.second, 62);
@@ -286,7 +287,8 @@ TEST_F(picture_program, a_time_lapse_refuses_what_it_cannot_or_must_not_do)
 TEST_F(picture_program, sizes_that_cannot_be_are_refused_before_anything_is_done)
 {
     must("replay ball.tape --export ball.glaise --store store");
-    for (const std::string task : {"replay ball.tape --png a.png", "picture ball.glaise a.png", "timelapse store film"}) {
+    for (const std::string task :
+         {"replay ball.tape --png a.png", "picture ball.glaise a.png", "timelapse store film"}) {
         for (const char *name : {"--width", "--height"})
             for (const char *value : {"0", "-1", "65537", "1e9", "nan", "wide", "''"})
                 refused(task + " " + name + " " + value, 2, name);
@@ -362,7 +364,8 @@ TEST_F(picture_program, scenery_lies_beside_the_tape_or_is_told)
     must("replay good.tape --settings set/set.tape" + size + "good.png --export ball.glaise");
     const outcome o = run("replay broken.tape --settings set/set.tape" + size + "a.png");
     EXPECT_EQ(o.exit, 1);
-    EXPECT_NE(o.err.find("the scenery stays as it is: broken.png: offset 50: expected more"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("the scenery stays as it is: broken.png: offset 50: expected more"), std::string::npos)
+        << o.err;
     must("replay plain.tape --settings set/set.tape" + size + "b.png");
     EXPECT_EQ(bytes("a.png"), bytes("b.png")); /* everything else goes on */
     must("replay broken.tape --settings set/set.tape"); /* who wants no picture needs none */

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Goal:   a picture taken in tiles is the one the view draws whole; what cannot be taken leaves what was there; scenery is
- *         read, or told with file and place.
- * Method: a real view on a headless display; both pictures of a piece whose outline crosses the seams are compared pixel
- *         by pixel. Soft shadows have a grain that begins anew in every part, and a tile's vertices are rounded anew: single
- *         pixels may differ, the means of small blocks by no more than a level. A seam would be seen in them.
+ * Goal:   a picture taken in tiles is the one the view draws whole; what cannot be taken leaves what was there; scenery
+ *         is read, or told with file and place.
+ * Method: a real view on a headless display; both pictures of a piece whose outline crosses the seams are compared
+ *         pixel by pixel. Soft shadows have a grain that begins anew in every part, and a tile's vertices are rounded
+ *         anew: single pixels may differ, the means of small blocks by no more than a level. A seam would be seen in
+ *         them.
  */
 #ifdef GLAISE_VIEW
 

@@ -10,7 +10,8 @@
  *           '--+--'
  *
  *          The floor is y = snapshot.box_lo[1]. Nothing is drawn where neither turntable nor box is shown, where the
- *          tool is hidden, or at or under the floor. A freeform's outline is that of a ball stretched to its surface's box.
+ *          tool is hidden, or at or under the floor. A freeform's outline is that of a ball stretched to its surface's
+ *          box.
  * Units:   millimetres, world space.
  * Owner:   nothing is kept but the device's; see hairline.h.
  * Cost:    a hundred lines, one call; a look at a freeform's patches.

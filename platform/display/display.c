@@ -49,6 +49,12 @@ void display_close(display *d)
     free(d);
 }
 
+bool display_is_lost(const display *d)
+{
+    assert(d);
+    return headless_is_lost(&d->headless);
+}
+
 const char *display_description(const display *d)
 {
     assert(d);

@@ -40,6 +40,10 @@ DISPLAY_CHECKED bool display_make_current(display *d, display_trouble *trouble_o
 /* NULL is fine. If it is current on the calling thread, that ends too; on another thread it must not be. */
 void display_close(display *d);
 
+/* Has the driver been reset, so that everything made in the context is gone? Then it is to be closed and opened anew.
+   Always false where the driver does not say, or it is not current here. */
+bool display_is_lost(const display *d);
+
 /* Which way was taken, e.g. "EGL 1.5 surfaceless". Holds until display_close. */
 const char *display_description(const display *d);
 

@@ -68,11 +68,20 @@ static bool bind_context(headless *h, report *r)
     EGLint count = 0;
     if (!eglChooseConfig(h->egl, wanted, &config, 1, &count) || count < 1)
         return missing(r, "no configuration for OpenGL ES 3 (%s)", egl_error());
+    const char *extensions = eglQueryString(h->egl, EGL_EXTENSIONS);
+    if (has_word(extensions, "EGL_EXT_create_context_robustness")) {
+        /* A driver that was reset then says so, where it would draw nothing any more without a word. */
+        const EGLint robust[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1,
+                                 EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT,
+                                 EGL_NONE};
+        h->context = eglCreateContext(h->egl, config, EGL_NO_CONTEXT, robust);
+    }
     const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
-    h->context = eglCreateContext(h->egl, config, EGL_NO_CONTEXT, version);
+    if (h->context == EGL_NO_CONTEXT)
+        h->context = eglCreateContext(h->egl, config, EGL_NO_CONTEXT, version);
     if (h->context == EGL_NO_CONTEXT)
         return missing(r, "no OpenGL ES 3.1 context (%s)", egl_error());
-    if (has_word(eglQueryString(h->egl, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
+    if (has_word(extensions, "EGL_KHR_surfaceless_context"))
         return true;
     const EGLint one_pixel[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     h->surface = eglCreatePbufferSurface(h->egl, config, one_pixel);
@@ -149,6 +158,21 @@ bool headless_make_current(headless *h, display_trouble *trouble_out)
         return true;
     snprintf(trouble_out->text, sizeof trouble_out->text, "headless display: the context cannot be made current (%s)",
              egl_error());
+    return false;
+}
+
+bool headless_is_lost(const headless *h)
+{
+    typedef unsigned (*reset_status)(void);
+    static const char *const names[] = {"glGetGraphicsResetStatus", "glGetGraphicsResetStatusKHR",
+                                        "glGetGraphicsResetStatusEXT"};
+    if (eglGetCurrentContext() != h->context)
+        return false;
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        const reset_status ask = (reset_status)eglGetProcAddress(names[n]);
+        if (ask)
+            return ask() != 0;
+    }
     return false;
 }
 

@@ -33,6 +33,7 @@ typedef struct headless {
 
 DISPLAY_CHECKED bool headless_open(headless *h, display_trouble *trouble_out);
 DISPLAY_CHECKED bool headless_make_current(headless *h, display_trouble *trouble_out);
+bool headless_is_lost(const headless *h);
 void headless_close(headless *h);
 
 #ifdef __cplusplus

@@ -27,7 +27,8 @@ command_argument count(const char *name) { return integer(name, -32768, 32767); 
 const std::vector<std::string_view> DOWN_UP{"up", "down"};
 const std::vector<std::string_view> ON_OFF{"off", "on"};
 const std::vector<std::string_view> MEANINGS{"nothing", "apply", "undo", "redo", "clutch", "next-action", "fork",
-                                             "environment-next", "raking", "silhouette", "plain", "mirror", "bare"};
+                                             "environment-next", "menu", "raking", "silhouette", "plain", "mirror",
+                                             "bare"};
 const std::vector<std::string_view> HOLDABLE{"raking", "silhouette", "plain", "mirror", "bare"};
 
 std::vector<std::string_view> action_names()
@@ -125,7 +126,7 @@ std::vector<command_form> tool_forms()
     };
 }
 
-std::vector<command_form> picture_forms()
+std::vector<command_form> look_forms()
 {
     return {
         {COMMAND_VIEW,
@@ -133,6 +134,7 @@ std::vector<command_form> picture_forms()
          {axis("AX"), axis("AY"), axis("AZ"), number("DEGREES", -TURN_DEGREES, TURN_DEGREES),
           number("DISTANCE", 0.1, 1e6)},
          "turns the scene and sets the eye's distance, mm"},
+        {COMMAND_DISTANCE, "distance", {number("DISTANCE", 0.1, 1e6)}, "sets the eye's distance alone, mm"},
         {COMMAND_CENTRE, "centre", {world("X"), world("Y"), world("Z")}, "the point that the eye looks at, mm"},
         {COMMAND_LOOK,
          "look",
@@ -174,6 +176,12 @@ std::vector<command_form> picture_forms()
          {number("SEPARATION", 0, 0.2), number("DEPTH", 0.25, 4)},
          "the eyes' separation as a part of the distance of the plane of zero parallax, and that, of the work's"},
         {COMMAND_STEREO_SWAP, "stereo-swap", {word("SWAPPED", ON_OFF)}, "gives each eye the other's picture"},
+    };
+}
+
+std::vector<command_form> picture_forms()
+{
+    return {
         {COMMAND_LIGHT,
          "light",
          {integer("N", 0, 3),
@@ -193,7 +201,11 @@ std::vector<command_form> picture_forms()
         {COMMAND_KEEPING_SHOWN,
          "keeping-shown",
          {word("SHOWN", ON_OFF)},
-         "draws a bead in the corner or not: green when all is kept, amber until it is, red when it cannot be"},
+         "says in the corner whether all is kept: green when it is, amber until then, red when it cannot be"},
+        {COMMAND_STRIP_SHOWN,
+         "strip-shown",
+         {word("SHOWN", ON_OFF)},
+         "draws the strip at the bottom: what is kept, what the puck holds, what each pedal does, the tool"},
         {COMMAND_MATERIAL,
          "material",
          {number("SPECULAR", 0, 1), number("SHININESS", 1, 1000), number("AMBIENT", 0, 1)},
@@ -212,17 +224,25 @@ std::vector<command_form> picture_forms()
          "picture",
          {{"FILE", COMMAND_NAME, 0, 0}},
          "a picture of this moment, where pictures are wanted"},
+        {COMMAND_TURNTABLE,
+         "turntable",
+         {{"FILE", COMMAND_NAME, 0, 0}, integer("FRAMES", 1, COMMAND_FRAMES_MAX)},
+         "pictures FILE-000.png, FILE-001.png ... of this moment's piece in one full turn, where pictures are wanted"},
         {COMMAND_EXPORT,
          "export",
          {{"FILE", COMMAND_NAME, 0, 0}},
          "the piece as it is now as a file, where pictures are wanted; its ending says which format"},
+        {COMMAND_NAMES_FROM,
+         "names-from",
+         {integer("N", 1, 999999)},
+         "the next picture or export that a menu asks for is called by this number, the one after it by the next"},
     };
 }
 
 std::vector<command_form> forms_make()
 {
     std::vector<command_form> all;
-    for (std::vector<command_form> (*make)() : {device_forms, tool_forms, picture_forms})
+    for (std::vector<command_form> (*make)() : {device_forms, tool_forms, look_forms, picture_forms})
         for (command_form &form : make())
             all.push_back(std::move(form));
     return all;

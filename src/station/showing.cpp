@@ -85,6 +85,7 @@ void showing_do(showing *v, const command &c)
         s.scene_turn = motion_about({n[0], n[1], n[2]}, radians_of(n[3]));
         s.camera_distance = n[4];
         break;
+    case COMMAND_DISTANCE: s.camera_distance = n[0]; break;
     case COMMAND_CENTRE: v->centre = {n[0], n[1], n[2]}; break;
     case COMMAND_LOOK: s.look = static_cast<snapshot_look>(index); break;
     case COMMAND_STRUCTURE: s.structure = static_cast<snapshot_structure>(index); break;
@@ -112,6 +113,7 @@ void showing_do(showing *v, const command &c)
     case COMMAND_LIGHT_WITH: do_light(v, c); break;
     case COMMAND_LIGHTS_SHOWN: s.lights_shown = index == 1; break;
     case COMMAND_KEEPING_SHOWN: s.keeping_shown = index == 1; break;
+    case COMMAND_STRIP_SHOWN: s.strip.shown = index == 1; break;
     case COMMAND_MATERIAL:
         s.material = {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
         break;

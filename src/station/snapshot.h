@@ -16,6 +16,7 @@
 #define GLAISE_STATION_SNAPSHOT_H
 
 #include "sculpture/sculpture.h"
+#include "station/snapshot_menu.h"
 
 #include <array>
 #include <cstdint>
@@ -132,6 +133,9 @@ struct snapshot {
 
     bool keeping_shown = false;
     snapshot_keeping keeping = SNAPSHOT_KEEPING_ALL;
+
+    snapshot_menu menu;
+    snapshot_menu_strip strip;
 };
 
 #endif

@@ -3,7 +3,9 @@
 
 #include "station/angle.h"
 #include "station/hand.h"
+#include "station/menu.h"
 #include "station/showing.h"
+#include "station/strip.h"
 
 #include <algorithm>
 #include <deque>
@@ -11,20 +13,6 @@
 
 namespace {
 
-enum moved_thing : int { MOVED_NOTHING, MOVED_SCENE, MOVED_TOOL, MOVED_LIGHT0 };
-enum meaning : int {
-    MEANS_NOTHING,
-    MEANS_APPLY,
-    MEANS_UNDO,
-    MEANS_REDO,
-    MEANS_CLUTCH,
-    MEANS_NEXT_ACTION,
-    MEANS_FORK,
-    MEANS_ENVIRONMENT_NEXT,
-    MEANS_HOLD, /* from here on: as showing_hold has them */
-};
-
-constexpr int PUCKS = 8, PEDALS = 8, BUTTONS = 32;
 constexpr double CAMERA_AT_REST_MM = 200; /* speeds are meant at this distance and scale with it */
 constexpr double MOUSE_RADIANS_A_PIXEL = 0.006, MOUSE_PART_A_PIXEL = 0.001, WHEEL_PART_A_NOTCH = 0.05;
 constexpr size_t MESSAGES_MAX = 100;
@@ -49,17 +37,14 @@ struct station {
     int64_t step_begun_ns = 0;
     std::string trouble_told;
 
-    std::array<std::array<int16_t, 6>, PUCKS> puck{};
-    std::array<moved_thing, 1 + PUCKS> moves{}; /* mouse, then pucks */
-    std::array<meaning, PEDALS> pedal_means{};
-    std::array<meaning, BUTTONS> button_means{};
-    motion_filter filter;
-    double speed_mm = 90, speed_radians = 1.6;
-    bool clutch = false;
-
+    controls devices = controls_at_first();
+    menu rings;
     showing shown;
 
     std::deque<std::string> pictures, exports, messages;
+    std::deque<station_turntable> turntables;
+    std::string told; /* the last message */
+    int64_t told_us = 0;
     std::vector<command> recording;
 };
 
@@ -67,6 +52,8 @@ namespace {
 
 void tell(station *s, std::string text)
 {
+    s->told = text;
+    s->told_us = s->next_us;
     if (s->messages.size() < MESSAGES_MAX)
         s->messages.push_back(std::move(text));
 }
@@ -187,81 +174,113 @@ void go_to_fork(station *s) { step_begin(s, HISTORY_FORK, "fork"); }
 
 /* --- presses --- */
 
-void press(station *s, meaning m, bool down)
+void mean(station *s, controls_meaning m, bool down)
 {
-    if (m >= MEANS_HOLD) {
-        showing_hold_set(&s->shown, static_cast<showing_hold>(m - MEANS_HOLD), down);
-        return;
-    }
     switch (m) {
-    case MEANS_NOTHING: break;
-    case MEANS_APPLY: apply_hold(s, down); break;
-    case MEANS_UNDO:
+    case CONTROLS_MEANS_APPLY: apply_hold(s, down); break;
+    case CONTROLS_MEANS_CLUTCH: s->devices.clutch = down; break;
+    case CONTROLS_MEANS_UNDO:
         if (down)
             undo(s);
         break;
-    case MEANS_REDO:
+    case CONTROLS_MEANS_REDO:
         if (down)
             redo(s);
         break;
-    case MEANS_FORK:
+    case CONTROLS_MEANS_FORK:
         if (down)
             go_to_fork(s);
         break;
-    case MEANS_CLUTCH: s->clutch = down; break;
-    case MEANS_NEXT_ACTION:
+    case CONTROLS_MEANS_NEXT_ACTION:
         if (down)
             s->tool.kind = static_cast<action>((s->tool.kind + 1) % ACTION_COUNT);
         break;
-    case MEANS_ENVIRONMENT_NEXT:
+    case CONTROLS_MEANS_ENVIRONMENT_NEXT:
         if (down)
             showing_environment_next(&s->shown);
         break;
-    case MEANS_HOLD: break;
+    default:
+        if (m >= CONTROLS_MEANS_HOLD)
+            showing_hold_set(&s->shown, static_cast<showing_hold>(m - CONTROLS_MEANS_HOLD), down);
+        break;
+    }
+}
+
+/* --- the menu --- */
+
+void do_now(station *s, const command &c);
+
+menu_now_sight menu_sight(const station *s)
+{
+    menu_now_sight seen{&s->tool, &s->shown, &s->devices};
+    return seen;
+}
+
+void menu_obey(station *s, const menu_answer &answer)
+{
+    for (const command &c : answer.commands)
+        do_now(s, c);
+    if (!answer.said.empty())
+        tell(s, answer.said);
+}
+
+void do_press(station *s, const command &c)
+{
+    const bool down = c.number[c.kind == COMMAND_PEDAL ? 1 : 2] == 1;
+    controls_press *p = controls_press_of(&s->devices, c);
+    if (!p)
+        return;
+    const bool taken = down && (menu_is_open(s->rings) || p->means == CONTROLS_MEANS_MENU);
+    const controls_meaning m = controls_edge(p, down, taken);
+    if (!taken) {
+        mean(s, m, down);
+    } else if (!menu_learns(&s->rings, c)) {
+        if (!menu_is_open(s->rings)) /* nobody moves the tool from here on */
+            between_strokes(s);
+        menu_now_sight seen = menu_sight(s);
+        seen.has_piece = sculpture_bounds_mm(s->piece, seen.lo.data(), seen.hi.data());
+        menu_obey(s, menu_press(&s->rings, m, seen));
     }
 }
 
 /* --- motion --- */
 
 /* Shifts and turns (view frame) what a device moves. */
-void thing_move(station *s, moved_thing what, const motion_vector &shift_mm, const motion_vector &turn_radians)
+void thing_move(station *s, controls_thing what, const motion_vector &shift_mm, const motion_vector &turn_radians)
 {
     const motion_quaternion scene = s->shown.base.scene_turn;
     motion_vector shift_world = motion_rotate_back(scene, shift_mm);
-    if (what == MOVED_SCENE) {
+    if (what == CONTROLS_SCENE) {
         s->shown.centre = motion_sum(s->shown.centre, shift_world, -1);
         s->shown.base.scene_turn = motion_turned(scene, turn_radians);
-    } else if (what == MOVED_TOOL) {
+    } else if (what == CONTROLS_TOOL) {
         s->tool.pose.place = motion_sum(s->tool.pose.place, shift_world);
         s->tool.pose.turn = motion_turned(s->tool.pose.turn, motion_rotate_back(scene, turn_radians));
-    } else if (what >= MOVED_LIGHT0) {
-        snapshot_light &light = s->shown.base.lights[static_cast<size_t>(what - MOVED_LIGHT0)];
+    } else if (what >= CONTROLS_LIGHT0) {
+        snapshot_light &light = s->shown.base.lights[static_cast<size_t>(what - CONTROLS_LIGHT0)];
         light.position = motion_sum(light.position, light.with_viewer ? shift_mm : shift_world);
     }
 }
 
-moved_thing puck_moves(const station *s, size_t device)
+/* An open menu has the pucks for itself, all but the light that one may carry. */
+controls_thing puck_moves(const station *s, size_t device)
 {
-    moved_thing what = s->moves[1 + device];
-    if (s->clutch && what == MOVED_TOOL)
-        return MOVED_SCENE;
-    if (s->clutch && what == MOVED_SCENE)
-        return MOVED_TOOL;
-    return what;
+    return menu_is_open(s->rings) ? menu_carries(s->rings) : controls_moved(s->devices, device);
 }
 
 void pucks_move(station *s, double seconds)
 {
-    double zoom = s->shown.base.camera_distance / CAMERA_AT_REST_MM;
-    for (size_t device = 0; device < PUCKS; device++) {
-        moved_thing what = puck_moves(s, device);
-        if (what == MOVED_NOTHING || s->puck[device] == std::array<int16_t, 6>{})
+    const double zoom = s->shown.base.camera_distance / CAMERA_AT_REST_MM;
+    const double speed_radians = radians_of(s->devices.speed_degrees);
+    for (size_t device = 0; device < CONTROLS_PUCKS; device++) {
+        controls_thing what = puck_moves(s, device);
+        if (what == CONTROLS_NOTHING || s->devices.puck[device] == std::array<int16_t, 6>{})
             continue;
-        motion_speed v = motion_filtered(s->filter, s->puck[device]);
+        motion_speed v = motion_filtered(s->devices.filter, s->devices.puck[device]);
         motion_vector shift{}, turn{};
         for (int a = 0; a < 3; a++) {
-            shift[a] = v.shift[a] * s->speed_mm * zoom * seconds;
-            turn[a] = v.turn[a] * s->speed_radians * seconds;
+            shift[a] = v.shift[a] * s->devices.speed_mm * zoom * seconds;
+            turn[a] = v.turn[a] * speed_radians * seconds;
         }
         thing_move(s, what, shift, turn);
     }
@@ -270,20 +289,21 @@ void pucks_move(station *s, double seconds)
 void mouse_move(station *s, double dx, double dy, double wheel)
 {
     double mm = s->shown.base.camera_distance;
-    moved_thing what = s->moves[0];
-    if (what == MOVED_SCENE) /* virtual trackball */
+    const controls_thing what = menu_is_open(s->rings) ? CONTROLS_NOTHING : s->devices.moves[0];
+    if (what == CONTROLS_SCENE) /* virtual trackball */
         thing_move(s, what, {0, 0, 0}, {dy * MOUSE_RADIANS_A_PIXEL, dx * MOUSE_RADIANS_A_PIXEL, 0});
     else
         thing_move(s, what,
                    {dx * MOUSE_PART_A_PIXEL * mm, -dy * MOUSE_PART_A_PIXEL * mm, wheel * WHEEL_PART_A_NOTCH * mm},
                    {0, 0, 0});
-    if (what == MOVED_SCENE)
+    if (what == CONTROLS_SCENE)
         s->shown.base.camera_distance = std::clamp(mm * (1 - wheel * WHEEL_PART_A_NOTCH), 0.1, 1e6);
 }
 
 void grid_step(station *s)
 {
     constexpr double seconds = STATION_STEP_US / 1e6;
+    menu_obey(s, menu_advance(&s->rings, seconds, menu_sight(s)));
     pucks_move(s, seconds);
     hand_advance(&s->tool, s->next_us);
     showing_advance(&s->shown, seconds, s->tool.pose.place);
@@ -406,36 +426,20 @@ void do_picture(station *s, const command &c)
     switch (c.kind) {
     case COMMAND_WORKSPACE_FIT: workspace_fit(s); break;
     case COMMAND_PICTURE: s->pictures.push_back(c.name); break;
+    case COMMAND_TURNTABLE: s->turntables.push_back({c.name, static_cast<int>(c.number[1])}); break;
     case COMMAND_EXPORT: s->exports.push_back(c.name); break;
+    case COMMAND_NAMES_FROM: s->rings.name = static_cast<int>(c.number[0]); break;
     default: showing_do(&s->shown, c); break;
     }
 }
 
 void do_device(station *s, const command &c)
 {
-    const auto &n = c.number;
-    /* Where the first argument is no index it may be negative, and is not used as one. */
-    auto index = static_cast<size_t>(static_cast<int64_t>(n[0]));
     switch (c.kind) {
-    case COMMAND_PUCK:
-        for (size_t a = 0; a < 6; a++)
-            s->puck[index][a] = static_cast<int16_t>(n[1 + a]);
-        break;
     case COMMAND_BUTTON:
-        if (n[1] < BUTTONS)
-            press(s, s->button_means[static_cast<size_t>(n[1])], n[2] == 1);
-        break;
-    case COMMAND_PEDAL: press(s, s->pedal_means[index], n[1] == 1); break;
-    case COMMAND_MOUSE: mouse_move(s, n[0], n[1], n[2]); break;
-    case COMMAND_MOVES: s->moves[index] = static_cast<moved_thing>(static_cast<int>(n[1])); break;
-    case COMMAND_MEANS_PEDAL: s->pedal_means[index] = static_cast<meaning>(static_cast<int>(n[1])); break;
-    case COMMAND_MEANS_BUTTON: s->button_means[index] = static_cast<meaning>(static_cast<int>(n[1])); break;
-    case COMMAND_SPEED:
-        s->speed_mm = n[0];
-        s->speed_radians = radians_of(n[1]);
-        break;
-    case COMMAND_FILTER: s->filter = {n[0], n[1]}; break;
-    default: break; /* COMMAND_RECORDING: wiring has put its reports in this command's place */
+    case COMMAND_PEDAL: do_press(s, c); break;
+    case COMMAND_MOUSE: mouse_move(s, c.number[0], c.number[1], c.number[2]); break;
+    default: controls_do(&s->devices, c); break; /* a recording: wiring has put its reports in this command's place */
     }
 }
 
@@ -474,11 +478,6 @@ station *station_open(sculpture *piece, station_ears ears)
     s->ears = std::move(ears);
     s->shown.base.step_mm = piece->step_mm;
     s->shown.base.look = SNAPSHOT_LOOK_CLAY;
-    s->pedal_means[0] = s->button_means[0] = MEANS_APPLY;
-    s->pedal_means[1] = s->button_means[1] = MEANS_UNDO;
-    s->moves[0] = MOVED_SCENE;
-    s->moves[1] = MOVED_TOOL;
-    s->moves[2] = MOVED_SCENE;
     return s;
 }
 
@@ -528,6 +527,11 @@ snapshot station_snapshot(const station *s)
     out.keeping = facts.medium != HISTORY_MEDIUM_GOOD              ? SNAPSHOT_KEEPING_FAILS
                   : facts.put != facts.kept || s->piece->in_stroke ? SNAPSHOT_KEEPING_UNDER_WAY
                                                                    : SNAPSHOT_KEEPING_ALL;
+    out.menu = menu_shown(s->rings, menu_sight(s));
+    const bool shown = out.strip.shown;
+    out.strip = strip_now({&s->devices, &h, &s->rings, facts, s->piece->has_history, s->piece->in_stroke,
+                           s->strokes > 0, s->told, s->told_us, s->next_us});
+    out.strip.shown = shown;
     if (h.shape == HAND_FREEFORM && h.has_freeform) {
         out.tool_surface = &h.made_surface;
         out.tool_middle = {h.made.middle[0], h.made.middle[1], h.made.middle[2]};
@@ -547,6 +551,14 @@ static bool front_take(std::deque<std::string> *from, std::string *out)
 }
 
 bool station_picture_take(station *s, std::string *name_out) { return front_take(&s->pictures, name_out); }
+bool station_turntable_take(station *s, station_turntable *out)
+{
+    if (s->turntables.empty())
+        return false;
+    *out = std::move(s->turntables.front());
+    s->turntables.pop_front();
+    return true;
+}
 bool station_export_take(station *s, std::string *name_out) { return front_take(&s->exports, name_out); }
 bool station_scenery_take(station *s, std::string *name_out)
 {

@@ -45,6 +45,12 @@ struct station_dab {
     int64_t field_ns = 0, surface_ns = 0; /* by the clock that was given */
 };
 
+/* One full turn of the piece in so many pictures. */
+struct station_turntable {
+    std::string name;
+    int frames = 1;
+};
+
 struct station_ears {
     bool counts = false;                           /* count dabs as the paper does: takes longer than the dabs */
     bool records = false;                          /* remember everything that is done (station_recording): grows */
@@ -68,6 +74,8 @@ snapshot station_snapshot(const station *s);
 bool station_is_applying(const station *s);
 /* Pictures that were asked for and not yet taken: name of the next, false when none. */
 bool station_picture_take(station *s, std::string *name_out);
+/* Turns that were asked for, likewise. */
+bool station_turntable_take(station *s, station_turntable *out);
 /* Files of the piece that were asked for, likewise. */
 bool station_export_take(station *s, std::string *name_out);
 /* The picture that was brought as scenery, likewise. */

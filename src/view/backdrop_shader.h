@@ -24,6 +24,7 @@ in vec2 v_place;
 layout(location = 0) out vec4 f_colour;
 uniform float u_aspect;
 uniform vec4 u_part;  /* of the whole picture: x, y of its middle, half its width and height, all of the whole's half */
+uniform float u_shift; /* of what is infinitely far, for an eye beside the middle */
 uniform int u_look;   /* as enum snapshot_look */
 
 const vec3 MIDDLE = vec3(0.082, 0.075, 0.067);
@@ -35,7 +36,7 @@ float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.0671
 
 void main()
 {
-    vec2 place = u_part.xy + v_place * u_part.zw;
+    vec2 place = u_part.xy + (v_place - vec2(u_shift, 0.0)) * u_part.zw;
     float wide = mix(1.0, u_aspect, 0.5);
     float away = length(vec2(place.x * wide * 0.62, place.y * 0.72 - 0.08));
     vec3 edge = mix(BOTTOM, TOP, smoothstep(-1.0, 1.0, place.y));

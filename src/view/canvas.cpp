@@ -2,6 +2,7 @@
 #include "view/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 
@@ -21,12 +22,12 @@ void make_drawn(canvas *c)
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, c->samples, GL_SRGB8_ALPHA8, c->width, c->height);
     glGenRenderbuffers(1, &c->depth);
     glBindRenderbuffer(GL_RENDERBUFFER, c->depth);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, c->samples, GL_DEPTH_COMPONENT24, c->width, c->height);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, c->samples, GL_DEPTH24_STENCIL8, c->width, c->height);
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
     glGenFramebuffers(1, &c->framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, c->framebuffer);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, c->colour);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, c->depth);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, c->depth);
 }
 
 void make_target(canvas_target *t)
@@ -88,9 +89,10 @@ bool canvas_fits(int width, int height, std::string *trouble_out)
 
 int canvas_samples_here(int wanted)
 {
-    GLint most = 0;
-    glGetInternalformativ(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, 1, &most); /* given in falling order */
-    return std::clamp(std::min(most, integer(GL_MAX_SAMPLES)), 0, std::min(wanted, static_cast<int>(CANVAS_SAMPLES)));
+    std::array<GLint, 16> counts{}; /* in falling order, then zeros */
+    glGetInternalformativ(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, GL_SAMPLES, counts.size(), counts.data());
+    const int most = std::min(wanted, static_cast<int>(CANVAS_SAMPLES));
+    return *std::find_if(counts.begin(), counts.end() - 1, [most](GLint n) { return n <= most; });
 }
 
 bool canvas_size(canvas *c, int width, int height, int samples, std::string *trouble_out)
@@ -156,7 +158,9 @@ void canvas_begin(const canvas &c)
     /* The backdrop covers every pixel; but a tiler that is not told the colour is new reads the old one back. */
     const GLenum old = GL_COLOR_ATTACHMENT0;
     glInvalidateFramebuffer(GL_FRAMEBUFFER, 1, &old);
-    glClear(GL_DEPTH_BUFFER_BIT);
+    glClearStencil(0);
+    glStencilMask(0xff);
+    glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
 void canvas_end(const canvas &c, const canvas_target &into)
@@ -165,7 +169,7 @@ void canvas_end(const canvas &c, const canvas_target &into)
     glBindFramebuffer(GL_READ_FRAMEBUFFER, c.framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer);
     glBlitFramebuffer(0, 0, c.width, c.height, 0, 0, c.width, c.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    const GLenum done[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    const GLenum done[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_STENCIL_ATTACHMENT};
     glInvalidateFramebuffer(GL_READ_FRAMEBUFFER, 2, done);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Where a picture is drawn: a multisampled framebuffer, and textures that it is resolved into, which can be read
- *          back, worked on or shown.
+ * What:    Where a picture is drawn: a multisampled framebuffer, and textures that it is resolved into, which can be
+ *          read back, worked on or shown.
  * Is not:  What is drawn (view.h); a screen or window (platform/display); a picture file (exchange/picture.h).
  * Shape:
  *              canvas: colour SRGB8_ALPHA8, N samples  --canvas_end-->  target: texture SRGB8_ALPHA8
- *                      depth 24 bit, N samples             (dropped)
+ *                      depth 24, stencil 8, N samples      (dropped)
  *
  *          N is what was asked for, CANVAS_SAMPLES at most, or what the machine has. Shaders write linear light; OpenGL
  *          encodes on the way in, so that blending and resolving happen in linear light. The texture's bytes are sRGB.
  * Units:   pixels.
  * Owner:   the caller owns the structs; a zeroed one is closed. The context must be current throughout.
- * Errors:  canvas_size, canvas_target_size false: a side out of range or no memory on the device; it is then closed, the
- *          trouble says which. canvas_read false: there is nothing in it, or the device refused.
+ * Errors:  canvas_size, canvas_target_size false: a side out of range or no memory on the device; it is then closed,
+ *          the trouble says which. canvas_read false: there is nothing in it, or the device refused.
  * Cost:    sizing does nothing when the size is what it was.
  * Source:  000 section 5 (multisampling) and figure 13.
  */

@@ -8,8 +8,8 @@
  *              diffuse    of the scenery: its irradiance, less where the sky is hidden, and there tinted by the clay
  *                         itself, as light goes to and fro; of the lamps: wrapped a little round the terminator, red
  *                         furthest, since light wanders in clay
- *              specular   GGX with Smith's visibility and Schlick's Fresnel; alpha = sqrt(2 / (shininess + 2)), F0 = 0.08
- *                         specular; of the scenery: its map's level of that roughness
+ *              specular   GGX with Smith's visibility and Schlick's Fresnel; alpha = sqrt(2 / (shininess + 2)),
+ *                         F0 = 0.08 specular; of the scenery: its map's level of that roughness
  *              bend       hollows a little darker, ridges a little lighter, so that fine marks are read
  *          u_look picks: 0 clay; 2 silhouette: one flat dark; 3 raking: grey, one lamp that grazes.
  * Units:   millimetres, linear light.
@@ -29,13 +29,13 @@ const float SCENERY_ROUGHEST = 6.0; /* as scenery.h has it */
 const vec3 WRAP = vec3(0.20, 0.14, 0.11);
 const float SKY_STRENGTH = 1.7; /* the scenery's light for ambient 1 */
 const vec3 RAKING_CLAY = vec3(0.42);
-const vec3 RAKING_TOWARD = vec3(-0.956, 0.271, 0.115);
 const vec3 SILHOUETTE_CLAY = vec3(0.012);
 
 float visibility(float to_eye, float to_lamp, float alpha)
 {
     float a = alpha * alpha;
-    float eye = to_lamp * sqrt(to_eye * to_eye * (1.0 - a) + a), lamp = to_eye * sqrt(to_lamp * to_lamp * (1.0 - a) + a);
+    float eye = to_lamp * sqrt(to_eye * to_eye * (1.0 - a) + a);
+    float lamp = to_eye * sqrt(to_lamp * to_lamp * (1.0 - a) + a);
     return 0.5 / max(eye + lamp, 1e-5);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    What all stages share: sRGB to linear light and back, and how bright light is brought under a screen's white.
+ * What:    What all stages share: sRGB to linear light and back, and how bright light is brought under a
+ *          screen's white.
  * Is not:  The encoding of the finished picture: the sRGB framebuffer does that (canvas.h).
  * Shape:   highlight() leaves light under KNEE as it is, channel by channel, and bends the rest smoothly towards 1: for
  *          the papers' look and for what is drawn beside the clay.

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The stages that find how open the sky is at each point that is seen, and how the surface bends there: a relief
- *          of what is seen at half the size, what hides the sky in it, and the noise taken out.
+ * What:    The stages that find how open the sky is at each point that is seen, and how the surface bends there: a
+ *          relief of what is seen at half the size, what hides the sky in it, and the noise taken out.
  * Is not:  Who draws them (hollow.h); what the light makes of it (lighting_shader.h).
  * Shape:   relief     RGBA16UI: normal, octahedral, 2 x 16 bit; depth from near to far, 16 bit; 65535: nothing
  *          hidden     RGBA8: how open, 0..1; bend, 1/2 flat; depth as before, high and low byte
  *          smoothed   the same, the mean of 4 x 4 that lie about as deep
  *
  *          A point p with normal n is hidden by what lies over its plane near it: of TAPS points q on a spiral round it
- *              hidden = (k / TAPS) sum part (1 - d^2) max(0, (q - p).n / r - slack) / (d^2 + 0.015), d = |q - p| / r <= 1
- *          where part is how far out q is on the spiral, since there are more points out there.
+ *              hidden = (k / TAPS) sum part (1 - d^2) max(0, (q - p).n / r - slack) / (d^2 + 0.015)
+ *          where d = |q - p| / r <= 1, and part is how far out q is on the spiral: out there its points
+ *          are farther apart.
  *          The spiral is turned from pixel to pixel; 4 x 4 turns are one another's complement.
  *          The bend is how far the neighbours' normals lean apart, a few pixels to either side.
  * Units:   millimetres, eye space.

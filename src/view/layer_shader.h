@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    What lies over the clay in every look: the layer that mirrors the scenery, and the ring where the tool's limit
- *          of influence meets the clay.
+ * What:    What lies over the clay in every look: the layer that mirrors the scenery, and the ring where the tool's
+ *          limit of influence meets the clay.
  * Is not:  The clay beneath (clay_shader.h, plain_shader.h); the scenery's picture (scenery.h).
  * Shape:   everything in eye space; u is the unit vector from the eye, n the normal.
  *              environment colour = (1 - w) lit + w map(r); none: w = 0, opaque: 1, semi: constant, clear coat:

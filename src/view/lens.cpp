@@ -28,7 +28,8 @@ void lens_close(lens *l)
     *l = {};
 }
 
-void lens_draw(const lens &l, GLuint sharp, GLuint hollow, const projection &p, double focus_mm, double blur, int height)
+void lens_draw(const lens &l, GLuint sharp, GLuint hollow, const projection &p, double focus_mm, double blur,
+               int height)
 {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);

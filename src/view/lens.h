@@ -29,6 +29,7 @@ struct lens {
 [[nodiscard]] bool lens_open(lens *l, std::string *trouble_out);
 void lens_close(lens *l);
 /* Into the framebuffer that is bound. sharp, hollow: textures. height: of the whole picture, pixels. */
-void lens_draw(const lens &l, GLuint sharp, GLuint hollow, const projection &p, double focus_mm, double blur, int height);
+void lens_draw(const lens &l, GLuint sharp, GLuint hollow, const projection &p, double focus_mm, double blur,
+               int height);
 
 #endif

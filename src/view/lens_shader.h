@@ -2,9 +2,9 @@
 /*
  * What:    The stage for depth of field: what lies nearer or farther than the work is spread over a disc.
  * Is not:  Who draws it (lens.h).
- * Shape:   a point at depth d is spread over a disc of radius  widest |d - focus| / d  pixels, LIMIT at most. Each pixel
- *          gathers those around it whose disc reaches it; what lies behind it reaches no farther than its own disc, so
- *          that a sharp rim stays sharp before a blurred ground.
+ * Shape:   a point at depth d is spread over a disc of radius  widest |d - focus| / d  pixels, LIMIT at most. Each
+ *          pixel gathers those around it whose disc reaches it; what lies behind it reaches no farther than its own
+ *          disc, so that a sharp rim stays sharp before a blurred ground.
  * Units:   pixels, millimetres.
  */
 #ifndef GLAISE_VIEW_LENS_SHADER_H

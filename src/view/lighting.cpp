@@ -73,7 +73,7 @@ void lighting_bind(const lighting &light)
 
 void lighting_release()
 {
-    for (GLenum unit : {LIGHTING_UNIT_MIRROR, LIGHTING_UNIT_ROUGH, LIGHTING_UNIT_SHADOW, LIGHTING_UNIT_SHADOW_BARE, LIGHTING_UNIT_HOLLOW}) {
+    for (GLenum unit = LIGHTING_UNIT_MIRROR; unit < LIGHTING_UNITS; unit++) {
         glActiveTexture(GL_TEXTURE0 + unit);
         glBindTexture(GL_TEXTURE_2D, 0);
     }

@@ -14,7 +14,14 @@
 #include "view/shadow.h"
 
 /* 0 is the bricks' table: upload.h. */
-enum { LIGHTING_UNIT_MIRROR = 1, LIGHTING_UNIT_ROUGH, LIGHTING_UNIT_SHADOW, LIGHTING_UNIT_SHADOW_BARE, LIGHTING_UNIT_HOLLOW };
+enum {
+    LIGHTING_UNIT_MIRROR = 1,
+    LIGHTING_UNIT_ROUGH,
+    LIGHTING_UNIT_SHADOW,
+    LIGHTING_UNIT_SHADOW_BARE,
+    LIGHTING_UNIT_HOLLOW,
+    LIGHTING_UNITS,
+};
 
 struct lighting_lamps {
     GLint count = 0; /* lit ones, in the snapshot's order */

@@ -5,9 +5,9 @@
  * Is not:  What the clay makes of it (clay_shader.h); the shadow map (shadow.h); the occlusion's picture (hollow.h).
  * Shape:   everything in eye space.
  *              irradiance(n)     of the scenery, over pi: nine coefficients
- *              hollow()          x: how open the sky is, 0..1; y: how the surface bends, 1/2 flat, less in hollows, more on
- *                                ridges. Taken from a picture of half the size, of its four nearest pixels those that lie
- *                                as deep as the point
+ *              hollow()          x: how open the sky is, 0..1; y: how the surface bends, 1/2 flat, less in hollows,
+ *                                more on ridges. Taken from a picture of half the size, of its four nearest pixels
+ *                                those that lie as deep as the point
  *              shadowed(e, n)    how much of the first lamp is seen, 0..1. What stands in the way is looked for first:
  *                                the farther it is from the point, the wider the shadow's edge
  * Units:   millimetres, linear light.
@@ -33,9 +33,12 @@ uniform float u_hollow_strength; /* 0: none */
 uniform vec2 u_depth_range;      /* of the hollow's picture: near, far mm */
 uniform sampler2D u_hollow;
 
+const vec3 RAKING_TOWARD = vec3(-0.956, 0.271, 0.115); /* as view.cpp has it: from the left, grazing */
+
 vec3 irradiance(vec3 n)
 {
-    vec3 sum = u_irradiance[0] * 0.282095 + 0.488603 * (u_irradiance[1] * n.y + u_irradiance[2] * n.z + u_irradiance[3] * n.x);
+    vec3 sum = u_irradiance[0] * 0.282095;
+    sum += 0.488603 * (u_irradiance[1] * n.y + u_irradiance[2] * n.z + u_irradiance[3] * n.x);
     sum += 1.092548 * (u_irradiance[4] * n.x * n.y + u_irradiance[5] * n.y * n.z + u_irradiance[7] * n.x * n.z);
     sum += u_irradiance[6] * 0.315392 * (3.0 * n.z * n.z - 1.0) + u_irradiance[8] * 0.546274 * (n.x * n.x - n.y * n.y);
     return max(sum, 0.0);
@@ -107,8 +110,8 @@ float shadowed(vec3 eye, vec3 n, vec3 toward)
     float turn = unrest(floor(gl_FragCoord.xy)) * 6.2831853;
     float wide = 1.5 * u_shadow.x, sure = 1.0; /* of the edge, in the map */
     if (u_shadow_taps > 6) {
-        /* The map's depth d is a perspective's: near / z = 1 - d (far - near) / far. As wide as the lamp is seen through
-           the near plane, a point of which stands farthest from here. */
+        /* The map's depth d is a perspective's: near / z = 1 - d (far - near) / far. As wide as the lamp is seen
+           through the near plane, a point of which stands farthest from here. */
         float mine = 1.0 / max(1.0 - at.z * u_shadow.w, 1e-5), lamp = u_shadow.z / deep * u_shadow.x / u_shadow.y;
         float reach = min(0.75 * lamp * (mine - 1.0), 48.0 * u_shadow.x);
         float blockers = 0.0, sum = 0.0;

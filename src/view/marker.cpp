@@ -512,33 +512,6 @@ void marker_draw_lights(const marker &m, const snapshot &s, const projection &p)
     glBindVertexArray(0);
 }
 
-void marker_draw_keeping(const marker &m, const snapshot &s, const projection &p)
-{
-    struct bead {
-        glm::vec3 colour;
-        double radius; /* of half the picture's height */
-    };
-    constexpr double margin = 0.045;
-    const std::array<bead, 3> beads = {{{{0.10f, 0.42f, 0.16f}, 0.014}, {{0.95f, 0.55f, 0.08f}, 0.018},
-                                        {{0.90f, 0.06f, 0.04f}, 0.032}}};
-    if (!s.keeping_shown)
-        return;
-    const bead &now = beads[s.keeping];
-    const double ahead = (p.near_mm + p.far_mm) / 2, half_height = ahead / p.clip_from_eye[1][1],
-                 half_width = ahead / p.clip_from_eye[0][0];
-    const glm::dvec3 at(half_width - margin * half_height, (margin - 1) * half_height, -ahead);
-    place(m.globes, glm::scale(glm::translate(glm::dmat4(1), at), glm::dvec3(now.radius * half_height)), p);
-    paint(m.globes, STYLE_GLOW, now.colour * 1.6f, 1, 1, 1);
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glDisable(GL_DEPTH_TEST);
-    glBindVertexArray(m.array);
-    glDrawElements(GL_TRIANGLES, m.ball_indices, GL_UNSIGNED_SHORT, nullptr);
-    glBindVertexArray(0);
-    glEnable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-}
-
 void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, const upload *patches)
 {
     glm::dmat4 eye_from_tool;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Everything in the picture that is not clay: the tool, the lights, the workspace box, the bead that says
- *          whether all is kept.
- * Is not:  The ring on the clay where an ellipsoid meets it (clay_shader.h, drawn with the clay); the tool's place over
- *          the floor (plumb.h, drawn here with it); lines themselves (hairline.h); menus.
+ * What:    Everything in the picture that is not clay: the tool, the lights, the workspace box.
+ * Is not:  The ring on the clay where an ellipsoid meets it (layer_shader.h, drawn with the clay); the tool's place over
+ *          the floor (plumb.h, drawn here with it); lines themselves (hairline.h); menus (overlay.h).
  * Shape:   all are drawn after the clay, against its depth:
  *
  *              tool, wire         an ellipsoid shows the limit of its influence by circles of latitude and longitude,
@@ -60,8 +59,6 @@ bool marker_eye_from_tool(const snapshot &s, const projection &p, glm::dmat4 *ey
 glm::vec3 marker_tool_colour(const snapshot &s);
 
 void marker_draw_box(const marker &m, const snapshot &s, const projection &p);
-/* In the lower right corner, before everything: green, amber, or red and larger. */
-void marker_draw_keeping(const marker &m, const snapshot &s, const projection &p);
 void marker_draw_lights(const marker &m, const snapshot &s, const projection &p);
 /* patches: those of s.tool_surface, made with lines; NULL for an ellipsoid. A stencil buffer is cleared and
    left zero. */

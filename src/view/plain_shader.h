@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The fragment stage for clay in the papers' look: its colour under the lights, the environment over it, and the ring where the
- *          tool's limit of influence meets it.
- * Is not:  The vertex stage (patch_shader.h); what surrounds the piece (scenery.h); the look of today (clay_shader.h). It needs
- *          colour_shader.h and layer_shader.h before it.
+ * What:    The fragment stage for clay in the papers' look: its colour under the lights, the environment over it, and
+ *          the ring where the tool's limit of influence meets it.
+ * Is not:  The vertex stage (patch_shader.h); what surrounds the piece (scenery.h); the look of today (clay_shader.h).
+ *          It needs colour_shader.h and layer_shader.h before it.
  * Shape:   everything in eye space; u is the unit vector from the eye, v = -u, n the normal, r = u - 2 n (n.u).
  *              diffuse     wrapped a little round the terminator, red furthest: light wanders in clay
  *              specular    Blinn-Phong, and a broad faint sheen of a fifth of its exponent
@@ -18,7 +18,6 @@
 #define GLAISE_VIEW_PLAIN_SHADER_H
 
 inline constexpr char plain_shader_fragment[] = R"(
-
 uniform int u_light_count;
 uniform vec3 u_light_place[4];
 uniform vec3 u_light_colour[4];

@@ -7,6 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+namespace {
+
+constexpr double same = 2e-6; /* of a matrix's largest number: lamps are floats; a two-hundredth of a texel */
+
+} // namespace
+
 bool shadow_open(shadow *s, std::string *trouble_out)
 {
     *s = {};
@@ -59,7 +65,9 @@ shadow_sight shadow_look(const projection &p, const projection_ball &ball, const
         toward = glm::dvec3(0, 0, 1);
     const double distance = std::max(glm::length(toward), SHADOW_NEAREST * radius);
     const glm::dvec3 lamp = ball.middle_eye + distance * glm::normalize(toward);
-    const glm::dvec3 up = std::abs(glm::normalize(toward).y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    /* By the world's axes: a lamp that turns with the piece then sees it as before. */
+    const glm::dvec3 y(p.eye_from_world[1]), x(p.eye_from_world[0]);
+    const glm::dvec3 up = std::abs(glm::dot(glm::normalize(toward), y)) < 0.9 ? y : x;
     const glm::dmat4 lamp_from_eye = glm::lookAtRH(lamp, ball.middle_eye, up);
     const double angle = 2 * std::asin(radius / distance) * 1.02;
     shadow_sight s;
@@ -75,7 +83,14 @@ shadow_sight shadow_look(const projection &p, const projection_ball &ball, const
 
 bool shadow_is_stale(const shadow &s, const shadow_sight &sight, uint64_t generation)
 {
-    return s.generation != generation || s.drawn != sight.from_lamp.clip_from_eye * sight.from_lamp.eye_from_world;
+    const glm::dmat4 now = sight.from_lamp.clip_from_eye * sight.from_lamp.eye_from_world;
+    double off = 0, largest = 0;
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            off = std::max(off, std::abs(now[column][row] - s.drawn[column][row]));
+            largest = std::max(largest, std::abs(now[column][row]));
+        }
+    return s.generation != generation || !(off <= same * largest);
 }
 
 void shadow_begin(const shadow &s)

@@ -2,11 +2,11 @@
 /*
  * What:    The piece as the first lamp sees it: a map of depths, from which the shading knows what stands in the way.
  * Is not:  The lookup (lighting_shader.h); who is drawn into it (view.cpp).
- * Shape:   the lamp's eye space looks at the middle of the ball that is to throw shadows, y away from the eye's x axis;
- *          its frustum just holds the ball. A lamp inside the ball's surroundings (nearer than SHADOW_NEAREST radii) is
- *          moved out along its own direction, one far away is a perspective as narrow as it takes.
+ * Shape:   the lamp's eye space looks at the middle of the ball that is to throw shadows; its frustum just holds the
+ *          ball. A lamp inside the ball's surroundings (nearer than SHADOW_NEAREST radii) is moved out along its own
+ *          direction, one far away is a perspective as narrow as it takes.
  *
- *              eye --shadow_of_eye--> lamp's clip space --(+1)/2--> map
+ *              eye --lamp_from_eye--> lamp's clip space --(+1)/2--> map
  *
  *          Depth 24 bit, SHADOW_SIDE a side; compared by the sampler, and read bare through a sampler object.
  * Units:   millimetres.

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double brick_steps = BRICK_EDGE;
 
-void hold_tool(const upload &tool_patches, const snapshot &s, const glm::dmat4 &eye_from_world, std::vector<projection_ball> *held)
+void hold_tool(const upload &tool_patches, const snapshot &s, const glm::dmat4 &eye_from_world,
+               std::vector<projection_ball> *held)
 {
     glm::dvec3 reach(1);
     glm::dvec3 off(0);

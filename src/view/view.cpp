@@ -4,14 +4,17 @@
 #include "view/backdrop_shader.h"
 #include "view/canvas.h"
 #include "view/colour_shader.h"
+#include "view/cubes.h"
 #include "view/hollow.h"
 #include "view/lens.h"
 #include "view/lighting.h"
 #include "view/marker.h"
+#include "view/overlay.h"
 #include "view/program.h"
 #include "view/shadow.h"
 #include "view/sight.h"
 #include "view/skin.h"
+#include "view/stereo.h"
 #include "view/upload.h"
 #include "view/wheel.h"
 
@@ -21,6 +24,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 struct view {
     view_limits limits;
@@ -32,14 +36,19 @@ struct view {
     size_t budget_bytes = VIEW_ALL;
     const surface *tool_surface = nullptr;
 
+    const sculpture *piece = nullptr;
+    cubes structure; /* in place of the clay, where that is asked for */
+
     skin clay_skin;
     marker markers;
+    overlay *words = nullptr; /* menus and the strip */
     wheel turntable;
     shadow lamp_shadow;
     hollow hollows;
     lens blur;
+    stereo both;
     GLuint backdrop = 0, empty_array = 0;
-    GLint backdrop_aspect = -1, backdrop_part = -1, backdrop_look = -1;
+    GLint backdrop_aspect = -1, backdrop_part = -1, backdrop_look = -1, backdrop_shift = -1;
 
     scenery around;
     snapshot_scenery around_is = SNAPSHOT_SCENERIES; /* which scenery that is; none yet */
@@ -47,21 +56,27 @@ struct view {
 
     canvas drawn;
     canvas_target sharp, blurred, eye; /* as drawn; through the lens; at the picture's own size */
-    const canvas_target *last = nullptr;
+    std::array<canvas_target, STEREO_EYES> eyes; /* each eye's, when there are two */
+    canvas_target whole;                         /* and what was put together of them */
+    canvas_target *last = nullptr;
     uint32_t passes = 0, page_draws = 0;
 };
 
 namespace {
 
-/* What one picture is drawn by. */
+constexpr double words_nearer = 0.004; /* than the screen: their parallax, of its width */
+
+/* What one eye's picture is drawn by. */
 struct setting {
-    const snapshot &s;
-    int width, height; /* of the whole */
+    snapshot s;          /* lights that move with the viewer: in this eye's space */
+    int width, height;   /* of the whole, pixels */
+    stereo_size looks;   /* the whole as it looks when it is shown */
     view_part part;
     quality_rules rules;
     bool hollows, lens;
     projection p;
     lighting light;
+    double far_shift = 0;
 };
 
 bool context_is_good(std::string *trouble_out)
@@ -102,6 +117,7 @@ void open_effects(view *v)
     open(&l->wheel, "no turntable", [v](std::string *why) { return wheel_open(&v->turntable, why); });
     open(&l->lens, "no depth of field",
          [v](std::string *why) { return v->limits.hollows && lens_open(&v->blur, why); });
+    open(&l->stereo, "no stereo", [v](std::string *why) { return stereo_open(&v->both, why); });
 }
 
 bool open_all(view *v, std::string *trouble_out)
@@ -110,10 +126,14 @@ bool open_all(view *v, std::string *trouble_out)
     if (!skin_open(&v->clay_skin, &why) ||
         !program_open("backdrop", {backdrop_shader_vertex}, {colour_shader_text, backdrop_shader_fragment},
                       &v->backdrop, &why) ||
-        !marker_open(&v->markers, &why) || !scenery_open(&v->around, SNAPSHOT_SCENERY_STUDIO, v->own, &why)) {
+        !marker_open(&v->markers, &why) || !cubes_open(&v->structure, &why) ||
+        !scenery_open(&v->around, SNAPSHOT_SCENERY_STUDIO, v->own, &why)) {
         *trouble_out = why;
         return false;
     }
+    v->words = overlay_open(trouble_out);
+    if (!v->words)
+        return false;
     v->around_is = SNAPSHOT_SCENERY_STUDIO;
     if (!v->limits.clay) {
         program_close(v->clay_skin.clay.program);
@@ -124,6 +144,7 @@ bool open_all(view *v, std::string *trouble_out)
     v->backdrop_aspect = program_uniform(v->backdrop, "u_aspect");
     v->backdrop_part = program_uniform(v->backdrop, "u_part");
     v->backdrop_look = program_uniform(v->backdrop, "u_look");
+    v->backdrop_shift = program_uniform(v->backdrop, "u_shift");
     glGenVertexArrays(1, &v->empty_array);
     upload_init(&v->clay, false);
     upload_init(&v->tool, true);
@@ -148,7 +169,10 @@ bool surround(view *v, snapshot_scenery which, std::string *trouble_out)
 }
 
 /* Far out, where every ray is parallel: as clay_shader.h has it. */
-glm::dvec3 raking_lamp(const projection_ball &ball) { return ball.middle_eye + 60 * ball.radius * glm::dvec3(-0.956, 0.271, 0.115); }
+glm::dvec3 raking_lamp(const projection_ball &ball) 
+{
+    return ball.middle_eye + 60 * ball.radius * glm::dvec3(-0.956, 0.271, 0.115);
+}
 
 void cast_shadow(view *v, setting *t)
 {
@@ -187,6 +211,8 @@ void find_hollows(view *v, setting *t, bool wheel)
 
 /* --- one picture --- */
 
+bool shows_cubes(const snapshot &s) { return s.structure != SNAPSHOT_STRUCTURE_SURFACE; }
+
 void draw_backdrop(const view &v, const setting &t)
 {
     const view_part &q = t.part;
@@ -195,7 +221,8 @@ void draw_backdrop(const view &v, const setting &t)
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glUseProgram(v.backdrop);
-    glUniform1f(v.backdrop_aspect, share(t.width, t.height));
+    glUniform1f(v.backdrop_aspect, share(t.looks.width, t.looks.height));
+    glUniform1f(v.backdrop_shift, static_cast<float>(t.far_shift));
     glUniform4f(v.backdrop_part, share(2 * q.x + q.width, t.width) - 1, 1 - share(2 * q.y + q.height, t.height),
                 share(q.width, t.width), share(q.height, t.height));
     glUniform1i(v.backdrop_look, skin_look(v.clay_skin, t.s.look));
@@ -211,14 +238,16 @@ void draw_scene(view *v, setting *t, bool wheel)
     canvas_begin(v->drawn);
     draw_backdrop(*v, *t);
     lighting_bind(t->light);
-    skin_draw(v->clay_skin, v->clay, t->s, t->p, t->light);
+    if (shows_cubes(t->s))
+        cubes_draw(v->structure, t->s, t->p);
+    else
+        skin_draw(v->clay_skin, v->clay, t->s, t->p, t->light);
     if (wheel)
         wheel_draw(v->turntable, t->s, t->p, t->light);
     lighting_release();
     marker_draw_box(v->markers, t->s, t->p);
     marker_draw_lights(v->markers, t->s, t->p);
     marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr);
-    marker_draw_keeping(v->markers, t->s, t->p);
     glUseProgram(0);
     v->passes++;
     v->page_draws += static_cast<uint32_t>(v->clay.pages.size() + v->tool.pages.size());
@@ -228,7 +257,7 @@ void draw_scene(view *v, setting *t, bool wheel)
    multisampling. */
 int drawn_side(const view &v, const setting &t, int side)
 {
-    const bool lone = t.rules.samples > 0 && canvas_samples_here(std::min(t.rules.samples, v.limits.samples)) == 0;
+    const bool lone = t.rules.samples == CANVAS_SAMPLES && canvas_samples_here(v.limits.samples) == 0;
     return std::max(1, static_cast<int>(std::lround(side * t.rules.scale * (lone ? 2 : 1))));
 }
 
@@ -250,7 +279,7 @@ bool size_all(view *v, const setting &t, std::string *trouble_out)
            (!t.hollows || hollow_size(&v->hollows, width, height, trouble_out));
 }
 
-/* One eye's picture, into a target of the picture's size: the last of the three that it went through. */
+/* One eye's picture, in a target of the picture's size: the last of the three that it went through. */
 bool draw_eye(view *v, setting *t, std::string *trouble_out)
 {
     const bool wheel = v->limits.wheel && skin_look(v->clay_skin, t->s.look) != SNAPSHOT_LOOK_PLAIN &&
@@ -265,7 +294,7 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
         glBindFramebuffer(GL_FRAMEBUFFER, v->blurred.framebuffer);
         glViewport(0, 0, v->blurred.width, v->blurred.height);
         lens_draw(v->blur, v->sharp.texture, v->hollows.smoothed.texture, t->p, t->s.eyes.plane_mm, t->s.effects.blur,
-                  t->height);
+                  t->looks.height);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         v->last = &v->blurred;
         v->passes++;
@@ -280,22 +309,116 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
     return true;
 }
 
-setting setting_of(const view &v, const snapshot &s, int width, int height, const view_part &part)
+/* Sharp, and the right way round, whatever was done to the picture. */
+void draw_words(const view &v, const setting &t, double shift_pixels)
 {
-    setting t{s, width, height, part, quality_rules_of(v.pace.level), false, false, {}, {}};
-    const bool lit = skin_look(v.clay_skin, s.look) == SNAPSHOT_LOOK_CLAY || skin_look(v.clay_skin, s.look) == SNAPSHOT_LOOK_RAKING;
+    const canvas_target &into = *v.last;
+    const double across = static_cast<double>(t.width) / t.looks.width,
+                 down = static_cast<double>(t.height) / t.looks.height;
+    glBindFramebuffer(GL_FRAMEBUFFER, into.framebuffer);
+    glViewport(0, 0, into.width, into.height);
+    overlay_draw(v.words, t.s, into.width, into.height, v.limits.pixels_per_mm,
+                 {shift_pixels, across, down, t.part.x, t.part.y, t.width, t.height});
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+/* All but the projection. */
+setting setting_of(const view &v, const snapshot &s, stereo_size size, stereo_size looks, const view_part &part)
+{
+    setting t{s, size.width, size.height, looks, part, quality_rules_of(v.pace.level), false, false, {}, {}};
+    const snapshot_look look = skin_look(v.clay_skin, s.look);
+    const bool lit = !shows_cubes(s) && (look == SNAPSHOT_LOOK_CLAY || look == SNAPSHOT_LOOK_RAKING);
     t.rules.shadow_taps = lit && v.limits.shadows ? t.rules.shadow_taps : 0;
     t.rules.hollow_taps = lit && v.limits.hollows ? t.rules.hollow_taps : 0;
-    t.lens = v.limits.lens && t.rules.blur && s.effects.blur > 0;
+    t.lens = !shows_cubes(s) && v.limits.lens && t.rules.blur && s.effects.blur > 0;
     t.hollows = t.lens || (t.rules.hollow_taps > 0 && s.effects.occlusion > 0);
-    t.p = projection_of_part(sight_of(s, v.clay, v.tool, width, height), width, height,
-                             {part.x, part.y, part.width, part.height});
-    if (s.effects.mirrored)
-        t.p = projection_mirrored(t.p);
-    t.light.lamps = lighting_lamps_of(s, t.p.eye_from_world);
     t.light.scenery = &v.around;
     t.light.shadow = &v.lamp_shadow;
     return t;
+}
+
+projection project(const view &v, const snapshot &s, stereo_size looks)
+{
+    const projection p = sight_of(s, v.clay, v.tool, looks.width, looks.height);
+    return s.effects.mirrored ? projection_mirrored(p) : p;
+}
+
+bool draw_mono(view *v, const snapshot &s, stereo_size size, const view_part &part, std::string *trouble_out)
+{
+    setting t = setting_of(*v, s, size, size, part);
+    t.p = projection_of_part(project(*v, s, size), size.width, size.height, {part.x, part.y, part.width, part.height});
+    t.light.lamps = lighting_lamps_of(s, t.p.eye_from_world);
+    cast_shadow(v, &t);
+    if (!size_all(v, t, trouble_out) || !draw_eye(v, &t, trouble_out))
+        return false;
+    draw_words(*v, t, 0);
+    return true;
+}
+
+/* How near and far what is looked at reaches. */
+void reach_of(const view &v, const snapshot &s, const projection &p, double *nearest_out, double *farthest_out)
+{
+    const projection_ball ball = sight_of_clay(s, v.clay, p.eye_from_world);
+    *nearest_out = std::max(p.near_mm, -ball.middle_eye.z - ball.radius);
+    *farthest_out = std::min(p.far_mm, -ball.middle_eye.z + ball.radius);
+    if (!(ball.radius > 0) || !(*nearest_out < *farthest_out)) {
+        *nearest_out = p.near_mm;
+        *farthest_out = p.far_mm;
+    }
+}
+
+void lights_seen_by(const glm::dmat4 &eye_from_mono, snapshot *s)
+{
+    for (snapshot_light &light : s->lights) {
+        const glm::dvec4 at(light.position[0], light.position[1], light.position[2], 1);
+        const glm::dvec4 seen = eye_from_mono * at;
+        if (light.with_viewer)
+            light.position = {seen.x, seen.y, seen.z};
+    }
+}
+
+bool draw_stereo(view *v, const snapshot &s, const stereo_screen &screen, const view_part &part,
+                 std::string *trouble_out)
+{
+    const stereo_size looks = stereo_shape(screen), size = stereo_eye_size(screen);
+    const projection mono = project(*v, s, looks);
+    const projection_part piece = {part.x, part.y, part.width, part.height};
+    double nearest = 0, farthest = 0;
+    reach_of(*v, s, mono, &nearest, &farthest);
+    const double apart = stereo_separation_mm(s.eyes, mono, nearest, farthest);
+    setting between = setting_of(*v, s, size, looks, part); /* shadows are the same for both */
+    between.p = mono;
+    between.light.lamps = lighting_lamps_of(s, mono.eye_from_world);
+    cast_shadow(v, &between);
+    for (stereo_eye eye : {STEREO_LEFT, STEREO_RIGHT}) {
+        const projection_part of = stereo_share_of(screen, eye, piece).of_eye;
+        if (of.width == 0)
+            continue;
+        const stereo_seen e =
+            stereo_see(projection_of_part(mono, size.width, size.height, of), s.eyes.plane_mm, apart, eye);
+        setting t = setting_of(*v, s, size, looks, {of.x, of.y, of.width, of.height});
+        lights_seen_by(e.eye_from_mono, &t.s);
+        t.p = e.seen;
+        t.far_shift = e.far_shift;
+        t.light.lamps = lighting_lamps_of(t.s, t.p.eye_from_world);
+        t.light.sight = between.light.sight;
+        t.light.shadow_taps = between.light.shadow_taps;
+        t.light.mono_from_eye = glm::inverse(e.eye_from_mono);
+        if (!size_all(v, t, trouble_out) || !draw_eye(v, &t, trouble_out))
+            return false;
+        draw_words(*v, t, (eye == STEREO_LEFT ? 0.5 : -0.5) * words_nearer * looks.width);
+        std::swap(v->eyes[eye], *v->last);
+    }
+    if (!canvas_target_size(&v->whole, part.width, part.height, trouble_out))
+        return false;
+    glBindFramebuffer(GL_FRAMEBUFFER, v->whole.framebuffer);
+    glViewport(0, 0, part.width, part.height);
+    stereo_compose(v->both, screen, piece, v->eyes[STEREO_LEFT].texture, v->eyes[STEREO_RIGHT].texture);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glUseProgram(0);
+    v->last = &v->whole;
+    v->passes++;
+    return true;
 }
 
 } // namespace
@@ -317,16 +440,19 @@ void view_close(view *v)
     if (!v)
         return;
     canvas_close(&v->drawn);
-    for (canvas_target *t : {&v->sharp, &v->blurred, &v->eye})
+    for (canvas_target *t : {&v->sharp, &v->blurred, &v->eye, &v->eyes[0], &v->eyes[1], &v->whole})
         canvas_target_close(t);
+    cubes_close(&v->structure);
     upload_finish(&v->clay);
     upload_finish(&v->tool);
     skin_close(&v->clay_skin);
     marker_close(&v->markers);
+    overlay_close(v->words);
     wheel_close(&v->turntable);
     shadow_close(&v->lamp_shadow);
     hollow_close(&v->hollows);
     lens_close(&v->blur);
+    stereo_close(&v->both);
     scenery_close(&v->around);
     program_close(v->backdrop);
     glDeleteVertexArrays(1, &v->empty_array);
@@ -352,12 +478,15 @@ bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t b
 {
     static_assert(VIEW_ALL == UPLOAD_ALL && VIEW_FRAME_BYTES >= UPLOAD_BUDGET_LEAST_BYTES);
     v->budget_bytes = budget_bytes;
+    v->piece = s;
     return upload_update(&v->clay, &s->surface, budget_bytes, trouble_out);
 }
 
 void view_forget(view *v)
 {
     upload_clear(&v->clay);
+    cubes_clear(&v->structure);
+    v->piece = nullptr;
     v->lamp_shadow.generation = 0;
 }
 
@@ -402,11 +531,18 @@ bool view_draw_part(view *v, const snapshot &s, int width, int height, const vie
         return false;
     if (!surround(v, s.scenery, trouble_out))
         return false;
-    setting t = setting_of(*v, s, width, height, part);
-    if (!size_all(v, t, trouble_out))
+    if (!shows_cubes(s) || !v->piece)
+        cubes_clear(&v->structure);
+    else if (!cubes_update(&v->structure, v->piece, s.structure, trouble_out))
         return false;
-    cast_shadow(v, &t);
-    const bool done = draw_eye(v, &t, trouble_out);
+    const stereo_screen screen = {s.eyes.layout, s.eyes.swapped, width, height, stereo_gap_usual(height)};
+    const bool two = v->both.program != 0 && s.eyes.layout != SNAPSHOT_LAYOUT_MONO;
+    if (two)
+        *trouble_out = stereo_trouble(s.eyes, screen);
+    if (!trouble_out->empty())
+        return false;
+    const bool done = two ? draw_stereo(v, s, screen, part, trouble_out)
+                          : draw_mono(v, s, {width, height}, part, trouble_out);
     if (!done)
         v->last = nullptr;
     upload_drawn(&v->clay);

@@ -12,6 +12,7 @@
  *                              backdrop, clay, turntable, box, lights, tool; multisampled      canvas.h, skin.h,
  *                                                                                              wheel.h, marker.h
  *                              depth of field                                                  lens.h
+ *                            both eyes into one                                              stereo.h
  *              view_pixels   the finished picture as bytes
  *
  *          What a device cannot do is left out: the picture is poorer, and view_lacks says how. A device without
@@ -62,7 +63,8 @@ struct view_counts {
 /* What a device is to do without, as if it could not: for trying what is left. */
 struct view_limits {
     int samples = 4;
-    bool clay = true, shadows = true, hollows = true, wheel = true, lens = true;
+    double pixels_per_mm = 0; /* of the screen; 0: it does not say */
+    bool clay = true, shadows = true, hollows = true, wheel = true, lens = true, stereo = true;
 };
 
 /* NULL and a trouble when no context is current, it is older than 3.1, or the device refuses even the plain look. */
@@ -74,7 +76,8 @@ const std::string &view_lacks(const view *v);
 /* The picture for SNAPSHOT_SCENERY_OWN. A bad one is refused, the one before stays. */
 [[nodiscard]] bool view_scenery(view *v, scenery_picture own, std::string *trouble_out);
 
-/* Brings what is shown up to date with the sculpture's surface. budget_bytes: what may be sent now; the rest waits for
+/* Brings what is shown up to date with the sculpture's surface. The sculpture must stay until it is forgotten: its
+   structure is looked at where that is to be drawn. budget_bytes: what may be sent now; the rest waits for
    the next update, see upload.h. It also holds, for the tool's own surface, in each view_draw until then. */
 [[nodiscard]] bool view_update(view *v, const sculpture *s, std::string *trouble_out, size_t budget_bytes = VIEW_ALL);
 /* Forgets every patch: before another sculpture is shown by the same view. */
@@ -88,7 +91,8 @@ const char *view_quality(const view *v);
 /* The largest size of the same shape that can be drawn in one, at least 1 x 1; a sentence when it is another than was
    asked for. */
 std::string view_size_fitted(int *width, int *height);
-/* Draws the patches of the last update. Width and height 1..CANVAS_SIDE_MAX. */
+/* Draws the patches of the last update. Width and height 1..CANVAS_SIDE_MAX, of the finished picture: with two eyes
+   side by side both are in it. */
 [[nodiscard]] bool view_draw(view *v, const snapshot &s, int width, int height, std::string *trouble_out);
 
 struct view_part {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    The stages for the turntable: a banding wheel of slate under the piece, grooved in rings as a lathe leaves it.
+ * What:    The stages for the turntable: a banding wheel of slate under the piece, grooved in rings as a lathe
+ *          leaves it.
  * Is not:  The light (lighting_shader.h); where it lies (wheel.h). The fragment stage needs colour_shader.h and
  *          lighting_shader.h before it.
- * Shape:   no buffers: WHEEL_SIDES triangles for the top, twice as many for the rim. In its own space the top is the unit
- *          disc at y = 0, and the rim goes down to y = -1.
+ * Shape:   no buffers: WHEEL_SIDES triangles for the top, twice as many for the rim. In its own space the top is the
+ *          unit disc at y = 0, and the rim goes down to y = -1.
  * Units:   eye space mm; linear light.
  */
 #ifndef GLAISE_VIEW_WHEEL_SHADER_H
@@ -47,7 +48,6 @@ uniform int u_look; /* as enum snapshot_look */
 layout(location = 0) out vec4 f_colour;
 
 const vec3 SLATE = vec3(0.050, 0.048, 0.047);
-const vec3 RAKING_TOWARD = vec3(-0.956, 0.271, 0.115);
 
 void main()
 {

@@ -12,8 +12,6 @@
 
 namespace {
 
-constexpr int PICTURE_SIDE_MAX_PIXELS = 8192;
-
 std::string commands_text()
 {
     std::string out =
@@ -64,6 +62,47 @@ std::vector<std::string> vectors_here()
 
 CLI::Validator a_piece() { return CLI::Range(1, SHELF_PIECES_MAX); }
 
+void picture_options(CLI::App *app, arguments *a)
+{
+    app->add_option("--width", a->pixels.width, "width of pictures")->check(CLI::Range(1, LARGE_PICTURE_SIDE_MAX));
+    app->add_option("--height", a->pixels.height, "height of pictures")->check(CLI::Range(1, LARGE_PICTURE_SIDE_MAX));
+    app->add_option("--supersample", a->pixels.supersample,
+                    "draws pictures so many times as wide and high, and takes the mean of the light")
+        ->check(CLI::Range(1, LARGE_PICTURE_SUPERSAMPLE_MAX));
+}
+
+/* How a piece is shown that nobody works on. */
+void showing_options(CLI::App *app, arguments *a)
+{
+    app->add_option("--settings", a->settings,
+                    "a tape with light, look and view, instead of the station's own. Of it what concerns the picture is "
+                    "done. The view's direction is kept and the piece fits the picture, unless a \"centre\" in it says "
+                    "what is looked at: then its distance is kept as well. The tool is not shown, the workspace and the "
+                    "lights only where it says so");
+    picture_options(app, a);
+}
+
+void picture_task_options(CLI::App *app, arguments *a)
+{
+    app->add_option("SCULPTURE", a->input, "a .glaise file, or a store's \"field\"")->required();
+    app->add_option("FILE.png", a->picture, "the picture")->required();
+    app->add_option("--turntable", a->turntable,
+                    "instead of one picture so many, FILE-000.png, FILE-001.png ..., of one turn about the vertical "
+                    "through the piece's middle")
+        ->check(CLI::Range(1, +COMMAND_FRAMES_MAX));
+    showing_options(app, a);
+}
+
+void timelapse_options(CLI::App *app, arguments *a)
+{
+    app->add_option("STORE", a->input, "folder that a sculpture is kept in; it is not changed")->required();
+    app->add_option("FOLDER", a->pictures, "for the pictures frame-000.png, frame-001.png ...; made when absent")
+        ->required();
+    app->add_option("--every", a->every, "a picture after every so many strokes, and of the end")
+        ->check(CLI::Range(1, +HISTORY_STROKES_MAX));
+    showing_options(app, a);
+}
+
 void replay_options(CLI::App *app, arguments *a)
 {
     app->add_option("TAPE", a->input, "the tape to replay")->required();
@@ -84,8 +123,7 @@ void replay_options(CLI::App *app, arguments *a)
     app->add_option("--step", a->step_mm, "step of the lattice in mm, instead of the tape's")
         ->check(CLI::Range(SCULPTURE_STEP_MM_MIN, SCULPTURE_STEP_MM_MAX))
         ->check(a_number());
-    app->add_option("--width", a->width, "width of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
-    app->add_option("--height", a->height, "height of pictures")->check(CLI::Range(1, PICTURE_SIDE_MAX_PIXELS));
+    picture_options(app, a);
     app->add_option("--ring", a->ring, "strokes that can be undone")->check(CLI::Range(1, +HISTORY_STROKES_MAX));
     app->add_option("--budget", a->budget_mb, "MiB that undo-files may take together")->check(CLI::Range(8, 1 << 20));
     app->add_flag("--kept", a->kept, "says \"kept RECORD STROKE DIGEST\" as soon as that state is on the medium");
@@ -138,6 +176,11 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
     CLI::App *exporting = app.add_subcommand("export", "writes a sculpture file in another format");
     exporting->add_option("SCULPTURE", a.input, "a .glaise file, or a store's \"field\"")->required();
     exporting->add_option("FILE", a.exports, "file to write: " + exchange_endings())->required()->expected(1);
+    CLI::App *picturing = app.add_subcommand("picture", "takes a picture of a sculpture file, or pictures of one turn");
+    picture_task_options(picturing, &a);
+    CLI::App *lapse = app.add_subcommand(
+        "timelapse", "goes back to the oldest stroke that a store keeps, and takes a picture after each from there on");
+    timelapse_options(lapse, &a);
     CLI::App *info = app.add_subcommand("info", "says what a sculpture file holds");
     info->add_option("FILE", a.input, "a .glaise file, or a store's \"field\"")->required();
     CLI::App *check = app.add_subcommand("check", "looks through a store, changes nothing");
@@ -146,7 +189,8 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
     CLI::App *shelf = app.add_subcommand("shelf", "lists the pieces of a shelf, or does something with one");
     shelf_acts(shelf, &a);
     if (count > 1 && !task_is_known(app, words[1])) {
-        std::cerr << "glaise: " << words[1] << ": expected run, replay, export, info, check or shelf (glaise --help)\n";
+        std::cerr << "glaise: " << words[1] << ": expected run, replay, export, picture, timelapse, info, check or shelf "
+                     "(glaise --help)\n";
         *exit_out = ARGUMENTS_EXIT_WRONG;
         return std::nullopt;
     }
@@ -156,9 +200,17 @@ std::optional<arguments> arguments_parse(int count, char **words, int *exit_out)
         *exit_out = app.exit(e) == 0 ? 0 : ARGUMENTS_EXIT_WRONG;
         return std::nullopt;
     }
+    const std::string trouble = large_picture_trouble(a.pixels);
+    if (!trouble.empty()) {
+        std::cerr << "glaise: " << trouble << "\n";
+        *exit_out = ARGUMENTS_EXIT_WRONG;
+        return std::nullopt;
+    }
     a.task = run->parsed()         ? ARGUMENTS_RUN
              : replay->parsed()    ? ARGUMENTS_REPLAY
              : exporting->parsed() ? ARGUMENTS_EXPORT
+             : picturing->parsed() ? ARGUMENTS_PICTURE
+             : lapse->parsed()     ? ARGUMENTS_TIMELAPSE
              : info->parsed()      ? ARGUMENTS_INFO
              : shelf->parsed()     ? ARGUMENTS_SHELF
                                    : ARGUMENTS_CHECK;

@@ -7,6 +7,8 @@
 #ifndef GLAISE_WIRING_ARGUMENTS_H
 #define GLAISE_WIRING_ARGUMENTS_H
 
+#include "wiring/large_picture.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,8 @@ enum arguments_task {
     ARGUMENTS_RUN,
     ARGUMENTS_REPLAY,
     ARGUMENTS_EXPORT,
+    ARGUMENTS_PICTURE,
+    ARGUMENTS_TIMELAPSE,
     ARGUMENTS_INFO,
     ARGUMENTS_CHECK,
     ARGUMENTS_SHELF,
@@ -39,7 +43,7 @@ enum arguments_act {
 
 struct arguments {
     arguments_task task = ARGUMENTS_RUN;
-    std::string input;                /* tape, or sculpture file */
+    std::string input;                /* tape, sculpture file, or store */
     std::string settings;             /* settings tape, may be empty */
     std::string store;                /* folder of the sculpture and its undo-files, may be empty */
     std::string shelf;                /* folder of a shelf, may be empty */
@@ -49,12 +53,14 @@ struct arguments {
     int room_mib = 0;                 /* to be free on the medium */
     std::string thumbnail;            /* small PNG of the end for a shelf (shelf_task_replay); may be empty */
     std::string picture;              /* PNG of the end, may be empty */
-    std::string pictures;             /* folder for the pictures that the tape asks for, may be empty */
+    std::string pictures;             /* folder for the pictures of a tape or a time-lapse, may be empty */
+    int turntable = 0;                /* pictures of one turn; 0: one picture */
+    int every = 1;                    /* a picture of the time-lapse after so many strokes */
     std::vector<std::string> exports; /* files, format by their ending */
     std::string statistics;           /* JSON, may be empty */
     std::string record;               /* tape of everything done, may be empty */
     double step_mm = 0;               /* 0: the tape's own */
-    int width = 1280, height = 960;   /* of pictures */
+    large_picture_size pixels;        /* of pictures */
     int ring = 200;                   /* strokes that can be undone */
     int budget_mb = 1024;             /* of all undo-files */
     bool repair = false;              /* write what can be had of a store as a new one */

@@ -130,7 +130,7 @@ bool playlist_load(const std::string &settings_path, const std::string &tape_pat
     tape settings, t;
     if (!settings_path.empty() && !tape_load(settings_path, &settings, text_out))
         return false;
-    if (!tape_load(tape_path, &t, text_out))
+    if (!tape_path.empty() && !tape_load(tape_path, &t, text_out))
         return false;
     playlist made;
     made.step_mm = t.step_mm;
@@ -138,6 +138,8 @@ bool playlist_load(const std::string &settings_path, const std::string &tape_pat
         c.time_us = 0; /* settings are how things stand at the start */
         made.commands.push_back(std::move(c));
     }
+    made.tape_path = tape_path;
+    made.settings_path = settings_path;
     std::string folder = std::filesystem::path(tape_path).parent_path().string();
     if (!recordings_expand(t, folder, &made.commands, text_out))
         return false;
@@ -150,4 +152,15 @@ bool playlist_load(const std::string &settings_path, const std::string &tape_pat
     }
     *out = std::move(made);
     return true;
+}
+
+std::string playlist_beside(const playlist &list, const std::string &name)
+{
+    std::error_code error;
+    const std::filesystem::path beside_tape = std::filesystem::path(list.tape_path).replace_filename(name);
+    const std::filesystem::path beside_settings = std::filesystem::path(list.settings_path).replace_filename(name);
+    const bool settings_have_it = !list.settings_path.empty() && std::filesystem::exists(beside_settings, error);
+    const bool tape_has_it = !list.tape_path.empty() && std::filesystem::exists(beside_tape, error);
+    const bool settings = list.tape_path.empty() || (settings_have_it && !tape_has_it);
+    return (settings ? beside_settings : beside_tape).string();
 }

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "wiring/progress.h"
 
+#include <chrono>
 #include <cstdio>
+#include <thread>
 #include <unistd.h>
 
 namespace {
 
 constexpr int BAR_CELLS = 30;
 constexpr int64_t REDRAW_NS = 50000000;
+constexpr int64_t MOMENT_NS = 300000000;
 
 void bar_draw(const progress &p, double part, const std::string &note)
 {
@@ -44,4 +47,39 @@ void progress_end(progress *p, const std::string &note)
     } else if (p->tenth < 10) {
         std::fprintf(stderr, "%s 100 %%  %s\n", p->what.c_str(), note.c_str());
     }
+}
+
+void progress_await(const char *what, const std::function<bool()> &is_done, const std::function<double()> &part)
+{
+    progress_teller told = progress_teller_begin(what);
+    while (!is_done()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        progress_teller_show(&told, part());
+    }
+    progress_teller_end(&told);
+}
+
+progress_teller progress_teller_begin(std::string what)
+{
+    return {progress_begin(std::move(what)), progress_now_ns(), false};
+}
+
+void progress_teller_show(progress_teller *t, double part)
+{
+    const int64_t now_ns = progress_now_ns();
+    t->shown = t->shown || now_ns - t->begun_ns >= MOMENT_NS;
+    if (t->shown)
+        progress_show(&t->bar, part, "", now_ns);
+}
+
+void progress_teller_end(progress_teller *t)
+{
+    if (t->shown)
+        progress_end(&t->bar, "");
+}
+
+int64_t progress_now_ns()
+{
+    using namespace std::chrono;
+    return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
 }

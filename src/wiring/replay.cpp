@@ -7,15 +7,16 @@
 #include "station/opening.h"
 #include "station/shelf.h"
 #include "wiring/outbox.h"
+#include "wiring/piece_file.h"
 #include "wiring/playlist.h"
 #include "wiring/progress.h"
 #include "wiring/scratch_store.h"
+#include "wiring/sequence.h"
 #include "wiring/stage.h"
 #include "wiring/statistics.h"
 #include "wiring/store.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -26,12 +27,6 @@ namespace {
 constexpr unsigned HANDS_USUAL_MAX = 4; /* more share too little of a dab's clay each */
 constexpr uint64_t SCRATCH_FILE_BYTES = 65536;
 constexpr int64_t FRAME_US = 16667; /* the replay looks up as often as a 60 Hz screen would */
-
-int64_t clock_ns()
-{
-    using namespace std::chrono;
-    return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
-}
 
 int complain(int exit, const std::string &text)
 {
@@ -79,24 +74,6 @@ void trouble(performance *p, const std::string &text)
 {
     std::fprintf(stderr, "\nglaise: %s\n", text.c_str());
     p->exit = ARGUMENTS_EXIT_TROUBLE;
-}
-
-/* Looks up from time to time whether a long work is done; shows how far it is when it takes longer than a moment. */
-void await(const char *what, const std::function<bool()> &is_done, const std::function<double()> &part)
-{
-    constexpr int64_t moment_ns = 300000000;
-    const int64_t start_ns = clock_ns();
-    progress bar = progress_begin(what);
-    bool shown = false;
-    while (!is_done()) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        if (clock_ns() - start_ns < moment_ns)
-            continue;
-        progress_show(&bar, part(), "", clock_ns());
-        shown = true;
-    }
-    if (shown)
-        progress_end(&bar, "");
 }
 
 /* The vectors and threads that were asked for. Without threads the caller works alone. */
@@ -153,7 +130,8 @@ bool performance_open(performance *p, double step_mm)
         }
     }
     opening *reading = opening_begin(p->piece.get(), port, settings_of(a), step_mm);
-    await("opening", [reading] { return opening_is_done(reading); }, [reading] { return opening_part(reading); });
+    progress_await(
+        "opening", [reading] { return opening_is_done(reading); }, [reading] { return opening_part(reading); });
     const status s = opening_end(reading, &finding);
     if (finding.text[0])
         std::fprintf(stderr, "glaise: %s: %s\n", a.store.c_str(), finding.text);
@@ -166,7 +144,7 @@ bool performance_open(performance *p, double step_mm)
     keep_beside(p);
     p->counts.every_dab = !a.statistics.empty();
     station_ears ears;
-    ears.clock_ns = clock_ns;
+    ears.clock_ns = progress_now_ns;
     ears.counts = p->counts.every_dab;
     ears.records = !a.record.empty();
     ears.dab = [p](const station_dab &d) {
@@ -194,26 +172,56 @@ std::string scene_open(performance *p)
     return text;
 }
 
-void picture_take(performance *p, const std::string &path)
+/* Where there are to be pictures: is there a scene to take them of? */
+bool scene_is_open(performance *p)
 {
-    std::string text = scene_open(p);
+    const std::string text = scene_open(p);
     if (!text.empty())
         trouble(p, "no pictures: " + text);
-    if (!p->scene)
+    return p->scene != nullptr;
+}
+
+void picture_take(performance *p, const std::string &path)
+{
+    if (!scene_is_open(p))
         return;
-    if (stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), p->wanted->width, p->wanted->height, path,
-                      &text))
+    std::string text;
+    progress_teller bar = progress_teller_begin("drawing");
+    if (stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), p->wanted->pixels, path, &text,
+                      [&bar](double part) { progress_teller_show(&bar, part); }))
         p->written.push_back(path);
     else
-        trouble(p, path + ": " + text);
+        trouble(p, text);
+    progress_teller_end(&bar);
+}
+
+void turntable_take(performance *p, const std::string &path, int frames)
+{
+    std::string text;
+    const auto written = [p](const std::string &file) { p->written.push_back(file); };
+    if (scene_is_open(p) && !sequence_turntable(p->scene, p->piece.get(), station_snapshot(p->desk),
+                                                p->wanted->pixels, path, frames, written, &text))
+        trouble(p, text);
+}
+
+/* A picture that cannot be read costs the scenery, nothing else. Who wants no pictures needs none. */
+void scenery_bring(performance *p, const std::string &path)
+{
+    const arguments &a = *p->wanted;
+    std::string text;
+    if (a.pictures.empty() && a.picture.empty() && a.thumbnail.empty())
+        return;
+    if (scene_is_open(p) && !stage_scenery(p->scene, path, &text))
+        trouble(p, "the scenery stays as it is: " + text);
 }
 
 /* A piece can do without: nothing has failed then. */
 void thumbnail_take(performance *p)
 {
     std::string text = scene_open(p);
-    if (p->scene && stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), SHELF_THUMBNAIL_WIDTH_PIXELS,
-                                  SHELF_THUMBNAIL_HEIGHT_PIXELS, p->wanted->thumbnail, &text))
+    const large_picture_size size = {SHELF_THUMBNAIL_WIDTH_PIXELS, SHELF_THUMBNAIL_HEIGHT_PIXELS, 1};
+    if (p->scene &&
+        stage_picture(p->scene, p->piece.get(), station_snapshot(p->desk), size, p->wanted->thumbnail, &text))
         return;
     if (!text.empty())
         std::fprintf(stderr, "glaise: no thumbnail: %s\n", text.c_str());
@@ -225,7 +233,8 @@ void collect(performance *p, bool wait)
     while (!p->sent.sent.empty()) {
         if (wait) {
             const std::string what = "writing " + p->sent.sent.front().file.path;
-            await(what.c_str(), [p] { return outbox_is_done(&p->sent); }, [p] { return outbox_part(&p->sent); });
+            progress_await(
+                what.c_str(), [p] { return outbox_is_done(&p->sent); }, [p] { return outbox_part(&p->sent); });
         }
         const std::optional<outbox_file> file = outbox_take(&p->sent);
         if (!file)
@@ -238,9 +247,12 @@ void collect(performance *p, bool wait)
 }
 
 /* What the station asks for or says. */
-void ask(performance *p)
+void ask(performance *p, const playlist &list)
 {
     std::string text;
+    station_turntable turn;
+    if (station_scenery_take(p->desk, &text))
+        scenery_bring(p, playlist_beside(list, text));
     while (station_export_take(p->desk, &text))
         if (!p->wanted->pictures.empty())
             outbox_send(&p->sent, p->piece.get(), (std::filesystem::path(p->wanted->pictures) / text).string());
@@ -250,6 +262,9 @@ void ask(performance *p)
     while (station_picture_take(p->desk, &text))
         if (!p->wanted->pictures.empty())
             picture_take(p, (std::filesystem::path(p->wanted->pictures) / text).string());
+    while (station_turntable_take(p->desk, &turn))
+        if (!p->wanted->pictures.empty())
+            turntable_take(p, (std::filesystem::path(p->wanted->pictures) / turn.name).string(), turn.frames);
 }
 
 void perform(performance *p, const playlist &list)
@@ -260,14 +275,14 @@ void perform(performance *p, const playlist &list)
         int64_t until_us = std::min(frame_us, list.end_us);
         for (; next < list.commands.size() && list.commands[next].time_us <= until_us; next++) {
             station_do(p->desk, list.commands[next]);
-            ask(p);
+            ask(p, list);
         }
         station_advance(p->desk, until_us);
-        ask(p);
+        ask(p, list);
         double part = list.end_us ? static_cast<double>(until_us) / static_cast<double>(list.end_us) : 1;
         progress_show(&bar, part,
                       std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners",
-                      clock_ns());
+                      progress_now_ns());
         if (until_us == list.end_us)
             break;
     }
@@ -277,7 +292,7 @@ void perform(performance *p, const playlist &list)
         up.kind = COMMAND_APPLY;
         while (station_is_applying(p->desk))
             station_do(p->desk, up);
-        ask(p);
+        ask(p, list);
     }
     progress_end(&bar,
                  std::to_string(p->counts.dabs) + " dabs, " + std::to_string(p->piece->clay.corners) + " corners");
@@ -388,28 +403,6 @@ int replay_demonstration(const arguments &a, const std::string &config)
     return replay_tape(b);
 }
 
-/* Opens a piece without history and fills it from a native file. */
-static int piece_read(sculpture *piece, const std::string &path)
-{
-    history_finding finding;
-    std::string text;
-    status s = sculpture_open(piece, nullptr, CAPACITY_BRICKS, nullptr, SCULPTURE_STEP_MM_DEFAULT, &finding);
-    if (s != STATUS_OK)
-        return complain(ARGUMENTS_EXIT_TROUBLE, status_text(s));
-    exchange_outcome outcome;
-    auto read = [&](checkpoint_source source, void *self) {
-        outcome = exchange_read(*piece, source, self);
-        return outcome.state == STATUS_OK;
-    };
-    if (store_import(path, read, &text))
-        return 0;
-    s = sculpture_close(piece);
-    (void)s; /* nothing is kept of it */
-    bool world = outcome.state == STATUS_OK || outcome.state == STATUS_IO;
-    return complain(world ? ARGUMENTS_EXIT_TROUBLE : ARGUMENTS_EXIT_WRONG,
-                    text.empty() ? path + ": " + outcome.text : text);
-}
-
 int replay_export(const arguments &a)
 {
     std::string text;
@@ -417,7 +410,7 @@ int replay_export(const arguments &a)
         return complain(ARGUMENTS_EXIT_WRONG, text);
     performance p;
     p.wanted = &a;
-    p.exit = piece_read(p.piece.get(), a.input);
+    p.exit = piece_file_open(p.piece.get(), a.input);
     if (p.exit != 0)
         return p.exit;
     p.open = true;

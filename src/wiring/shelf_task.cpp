@@ -6,7 +6,6 @@
 #include "wiring/replay.h"
 #include "wiring/shelf_store.h"
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 
@@ -18,12 +17,6 @@ int complain(int exit, const std::string &text)
 {
     std::fprintf(stderr, "glaise: %s\n", text.c_str());
     return exit;
-}
-
-int64_t clock_ns()
-{
-    using namespace std::chrono;
-    return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
 /* A shelf on a real folder. */
@@ -71,21 +64,12 @@ int all_tell(const counter &c)
     return 0;
 }
 
-/* What takes no more than a moment needs no bar. */
 std::string duplicate(counter *c, int number, int *number_out)
 {
-    constexpr int64_t moment_ns = 300000000;
-    const int64_t start_ns = clock_ns();
-    progress bar = progress_begin("duplicating");
-    bool shown = false;
-    const auto told = [&](double part) {
-        shown = shown || clock_ns() - start_ns >= moment_ns;
-        if (shown)
-            progress_show(&bar, part, "", clock_ns());
-    };
+    progress_teller bar = progress_teller_begin("duplicating");
+    const auto told = [&](double part) { progress_teller_show(&bar, part); };
     const std::string text = shelf_duplicate(&c->pieces, number, nullptr, told, number_out);
-    if (shown)
-        progress_end(&bar, "");
+    progress_teller_end(&bar);
     return text;
 }
 

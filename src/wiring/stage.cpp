@@ -4,11 +4,14 @@
 #ifdef GLAISE_VIEW
 
 #include "exchange/picture.h"
+#include "exchange/picture_source.h"
 #include "platform/display/display.h"
 #include "view/view.h"
 #include "wiring/store.h"
 
 #include <cstdio>
+
+static_assert(LARGE_PICTURE_SIDE_MAX <= PICTURE_SIDE_MAX && LARGE_PICTURE_SIDE_MAX <= VIEW_SIDE_MAX);
 
 struct stage {
     display *place = nullptr;
@@ -44,17 +47,61 @@ void stage_close(stage *s)
     delete s;
 }
 
-bool stage_picture(stage *s, const sculpture *piece, const snapshot &shown, int width, int height,
-                   const std::string &path, std::string *text_out)
+bool stage_picture(stage *s, const sculpture *piece, const snapshot &shown, const large_picture_size &size,
+                   const std::string &path, std::string *text_out, const std::function<void(double)> &told)
 {
-    std::vector<uint8_t> rgba;
-    if (!view_update(s->eye, piece, text_out) || !view_draw(s->eye, shown, width, height, text_out) ||
-        !view_pixels(s->eye, &rgba, text_out))
+    std::string trouble = large_picture_trouble(size);
+    if (!trouble.empty() || !view_update(s->eye, piece, &trouble)) {
+        *text_out = path + ": " + trouble;
         return false;
-    picture p = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), 4, rgba.data(),
-                 4 * static_cast<ptrdiff_t>(width)};
-    return store_export(
-        path, [&p](checkpoint_sink sink, void *self) { return picture_write(p, sink, self); }, text_out);
+    }
+    large_picture whole;
+    whole.size = size;
+    whole.draw = [&](int width, int height, const large_picture_part &part, std::vector<uint8_t> *rgba_out,
+                     std::string *why_out) {
+        if (!view_draw_part(s->eye, shown, width, height, {part.x, part.y, part.width, part.height}, why_out) ||
+            !view_pixels(s->eye, rgba_out, why_out))
+            return false;
+        const double across = static_cast<double>(part.x + part.width) / width;
+        if (told)
+            told((part.y + part.height * across) / height);
+        return true;
+    };
+    const picture_rows rows = [&](uint32_t y, const uint8_t **row_out) {
+        *row_out = large_picture_row(&whole, static_cast<int>(y), &trouble);
+        return *row_out ? STATUS_OK : STATUS_IO; /* the sentence says which */
+    };
+    const auto write = [&](checkpoint_sink sink, void *self) {
+        return picture_write_rows(static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height), 4, rows, sink,
+                                  self);
+    };
+    if (store_export(path, write, text_out))
+        return true;
+    if (!trouble.empty())
+        *text_out = path + ": " + trouble;
+    return false;
+}
+
+bool stage_scenery(stage *s, const std::string &path, std::string *text_out)
+{
+    picture_source brought;
+    exchange_outcome outcome;
+    const auto read = [&](checkpoint_source source, void *self) {
+        outcome = picture_source_read(source, self, &brought);
+        return outcome.state == STATUS_OK;
+    };
+    text_out->clear();
+    if (!store_import(path, read, text_out)) {
+        if (text_out->empty())
+            *text_out = path + ": " + outcome.text;
+        return false;
+    }
+    std::string trouble;
+    scenery_picture own = {static_cast<int>(brought.width), static_cast<int>(brought.height), std::move(brought.rgba)};
+    if (view_scenery(s->eye, std::move(own), &trouble))
+        return true;
+    *text_out = path + ": " + trouble;
+    return false;
 }
 
 #else
@@ -67,9 +114,12 @@ stage *stage_open(std::string *text_out)
 
 void stage_close(stage *) {}
 
-bool stage_picture(stage *, const sculpture *, const snapshot &, int, int, const std::string &, std::string *)
+bool stage_picture(stage *, const sculpture *, const snapshot &, const large_picture_size &, const std::string &,
+                   std::string *, const std::function<void(double)> &)
 {
     return false;
 }
+
+bool stage_scenery(stage *, const std::string &, std::string *) { return false; }
 
 #endif

@@ -55,6 +55,25 @@ TEST(display, draws_without_a_window)
     EXPECT_EQ(glGetString(GL_VERSION), nullptr) << "closing ends the current context too";
 }
 
+/* Where the driver can say that it was reset, it was asked to. */
+TEST(display, is_told_when_the_driver_was_reset)
+{
+    constexpr GLenum strategy = 0x8256 /* GL_RESET_NOTIFICATION_STRATEGY */;
+    constexpr GLint lose_context = 0x8252 /* GL_LOSE_CONTEXT_ON_RESET */;
+    display_trouble trouble;
+    display *d = display_open(DISPLAY_HEADLESS, &trouble);
+    ASSERT_NE(d, nullptr) << trouble.text;
+    EXPECT_FALSE(display_is_lost(d)) << "not current yet";
+    ASSERT_TRUE(display_make_current(d, &trouble)) << trouble.text;
+    EXPECT_FALSE(display_is_lost(d));
+    GLint asked = lose_context;
+    glGetIntegerv(strategy, &asked);
+    if (glGetError() == GL_NO_ERROR) {
+        EXPECT_EQ(asked, lose_context);
+    }
+    display_close(d);
+}
+
 TEST(display, opens_again_after_closing)
 {
     for (int round = 0; round < 3; round++) {

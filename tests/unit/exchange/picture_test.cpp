@@ -120,6 +120,39 @@ TEST(picture, same_pixels_same_bytes)
     EXPECT_EQ(written(picture_of(bytes, 64, 64, 3)), written(picture_of(bytes, 64, 64, 3)));
 }
 
+TEST(picture, rows_made_one_by_one_are_the_same_file)
+{
+    const std::vector<uint8_t> bytes = pixels_of(61, 37, 4);
+    std::vector<uint8_t> row(61 * 4);
+    uint32_t asked = 0;
+    const picture_rows rows = [&](uint32_t y, const uint8_t **row_out) {
+        EXPECT_EQ(y, asked++);
+        row.assign(bytes.begin() + y * 61 * 4, bytes.begin() + (y + 1) * 61 * 4);
+        *row_out = row.data();
+        return STATUS_OK;
+    };
+    bucket b;
+    ASSERT_EQ(picture_write_rows(61, 37, 4, rows, bucket_put, &b), STATUS_OK);
+    EXPECT_EQ(asked, 37u);
+    EXPECT_EQ(b.bytes, written(picture_of(bytes, 61, 37, 4)));
+}
+
+TEST(picture, a_row_that_cannot_be_made_ends_it)
+{
+    const std::vector<uint8_t> row(8 * 3, 1);
+    uint32_t last = 0;
+    const picture_rows rows = [&](uint32_t y, const uint8_t **row_out) {
+        last = y;
+        *row_out = row.data();
+        return y == 3 ? STATUS_TOO_LARGE : STATUS_OK;
+    };
+    bucket b;
+    EXPECT_EQ(picture_write_rows(8, 8, 3, rows, bucket_put, &b), STATUS_TOO_LARGE);
+    EXPECT_EQ(last, 3u);
+    EXPECT_EQ(b.bytes.find("IEND"), std::string::npos);
+    EXPECT_EQ(picture_write_rows(PICTURE_SIDE_MAX + 1, 8, 3, rows, bucket_put, &b), STATUS_BAD_PARAMETER);
+}
+
 TEST(picture, refuses_before_the_first_byte)
 {
     const std::vector<uint8_t> bytes = pixels_of(4, 4, 4);

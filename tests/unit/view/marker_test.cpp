@@ -389,26 +389,4 @@ TEST_F(view_marker, clay_hides_box_and_lights)
     EXPECT_EQ(draw(s).changed(none), 0);
 }
 
-TEST_F(view_marker, the_bead_lies_in_its_corner_and_tells_the_states_apart)
-{
-    view_stage_piece piece;
-    piece.ball({0, 0, 0}, 20, view_stage_rgba(180, 120, 90));
-    update(piece);
-    snapshot s = plain();
-    const view_stage_picture without = draw(s);
-    s.keeping_shown = true;
-    std::vector<view_stage_picture> shown;
-    for (const snapshot_keeping k : {SNAPSHOT_KEEPING_ALL, SNAPSHOT_KEEPING_UNDER_WAY, SNAPSHOT_KEEPING_FAILS}) {
-        s.keeping = k;
-        shown.push_back(draw(s));
-    }
-    const double corner = 0.05 * height;
-    const auto inside = [=](double x, double y) { return x > width - corner && y > height - corner; };
-    for (size_t n = 0; n < shown.size(); n++) {
-        EXPECT_EQ(shown[n].changed(without, outside(inside)), 0) << n;
-        EXPECT_GT(shown[n].changed(without, inside), 3) << n;
-        EXPECT_GT(shown[n].changed(shown[(n + 1) % shown.size()], inside), 3) << n;
-    }
-}
-
 } // namespace

@@ -66,10 +66,10 @@ class stereo_picture : public view_stage {
 
     view_stage_picture compose(const stereo_screen &whole, const projection_part &part, GLuint left, GLuint right)
     {
-        canvas target;
+        canvas_target target;
         view_stage_picture p{part.width, part.height, {}};
-        EXPECT_TRUE(canvas_size(&target, part.width, part.height, &trouble)) << trouble;
-        glBindFramebuffer(GL_FRAMEBUFFER, target.resolve_framebuffer);
+        EXPECT_TRUE(canvas_target_size(&target, part.width, part.height, &trouble)) << trouble;
+        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
         glClearColor(1, 0, 1, 1); /* whatever is left of this is wrong */
         glClear(GL_COLOR_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
@@ -78,9 +78,8 @@ class stereo_picture : public view_stage {
         glEnable(GL_SCISSOR_TEST);
         glScissor(0, 0, 1, 1);
         stereo_compose(composer, whole, part, left, right);
-        target.resolved = true;
-        EXPECT_TRUE(canvas_read(&target, &p.rgba, &trouble)) << trouble;
-        canvas_close(&target);
+        EXPECT_TRUE(canvas_read(target, &p.rgba, &trouble)) << trouble;
+        canvas_target_close(&target);
         return p;
     }
 
@@ -301,7 +300,7 @@ class stereo_bar : public stereo_picture {
         stereo_picture::TearDown();
     }
 
-    void draw_bar(canvas *c, const stereo_seen &seen, double x, double z)
+    void draw_bar(const canvas &c, const canvas_target &into, const stereo_seen &seen, double x, double z)
     {
         canvas_begin(c);
         glClearColor(0, 0, 0, 1);
@@ -316,7 +315,7 @@ class stereo_bar : public stereo_picture {
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
         glBindVertexArray(0);
         glUseProgram(0);
-        canvas_end(c);
+        canvas_end(c, into);
     }
 
     view_stage_picture finished(const stereo_screen &whole, double x, double z, bool mirrored = false)
@@ -330,18 +329,21 @@ class stereo_bar : public stereo_picture {
         projection mono = projection_make(s, looks.width, looks.height, {{{0, 0, -200}, 100}});
         if (mirrored)
             mono.clip_from_eye[0][0] = -mono.clip_from_eye[0][0];
-        std::array<canvas, 2> eyes;
+        canvas drawn;
+        std::array<canvas_target, 2> eyes;
         for (stereo_eye eye : {STEREO_LEFT, STEREO_RIGHT}) {
             const projection_part of = stereo_share_of(whole, eye, part).of_eye;
             if (of.width == 0)
                 continue;
-            EXPECT_TRUE(canvas_size(&eyes[eye], of.width, of.height, &trouble)) << trouble;
+            EXPECT_TRUE(canvas_size(&drawn, of.width, of.height, CANVAS_SAMPLES, &trouble)) << trouble;
+            EXPECT_TRUE(canvas_target_size(&eyes[eye], of.width, of.height, &trouble)) << trouble;
             const projection own = projection_of_part(mono, size.width, size.height, of);
-            draw_bar(&eyes[eye], stereo_see(own, plane, 8, eye), x, z);
+            draw_bar(drawn, eyes[eye], stereo_see(own, plane, 8, eye), x, z);
         }
         const view_stage_picture p = compose(whole, part, eyes[STEREO_LEFT].texture, eyes[STEREO_RIGHT].texture);
-        for (canvas &c : eyes)
-            canvas_close(&c);
+        canvas_close(&drawn);
+        for (canvas_target &t : eyes)
+            canvas_target_close(&t);
         return p;
     }
 

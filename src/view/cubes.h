@@ -4,8 +4,8 @@
  *          surface passes through, as boxes.
  * Is not:  The surface (upload.h); what makes a cube cross (surface/patch.h); the brick as the clay stores it
  *          (clay/brick.h).
- * Shape:   sets are kept as 512 bits for a brick's cubes. A cube's face is listed where the cube beyond it is not in the
- *          set, so that what is inside costs nothing:
+ * Shape:   sets are kept as 512 bits for a brick's cubes. A cube's face is listed where the cube beyond it is not in
+ *          the set, so that what is inside costs nothing:
  *
  *              stored corners --OR of eight neighbours--> cubes --AND NOT neighbour, six ways--> faces, 8 bytes each
  *

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What:    Thin lines, smooth on any device: drawn as rectangles on the screen. Either lines that stay on the device and
- *          are moved by a matrix, or lines made for one picture, each with a colour.
+ * What:    Thin lines, smooth on any device: drawn as rectangles on the screen. Either lines that stay on the device
+ *          and are moved by a matrix, or lines made for one picture, each with a colour.
  * Is not:  What the lines show (marker.h, plumb.h); the sides of patches' triangles (upload_draw_lines), which the
  *          device draws as it can.
  * Shape:   a line is 40 bytes: from, into, colour with straight alpha. Lines of one picture are in eye space.

@@ -17,7 +17,8 @@
 
 namespace {
 
-enum style { STYLE_PLAIN, STYLE_LINE, STYLE_GLASS, STYLE_GLOW, STYLE_HALO, STYLE_SHADOW }; /* as marker_shader.h has them */
+/* As marker_shader.h has them. */
+enum style { STYLE_PLAIN, STYLE_LINE, STYLE_GLASS, STYLE_GLOW, STYLE_HALO, STYLE_SHADOW };
 
 constexpr int ball_slices = 32, ball_stacks = 16;
 constexpr int circle_sides = 72, latitudes = 7, longitudes = 8; /* great circles through the poles */
@@ -29,7 +30,7 @@ const glm::vec3 box_colour(0.42f, 0.40f, 0.37f);
 constexpr float box_alpha = 0.75f, box_far_side = 0.4f, tick_part = 0.9f;
 constexpr double tick_length = 0.16, tick_fifth = 2;   /* of MARKER_TICK_MM; every fifth is as much longer */
 constexpr double tick_count_max = 100;                 /* along a side */
-constexpr double tick_pixels_least = 3, tick_pixels = 9; /* apart: below the first none are drawn, from the second all */
+constexpr double tick_pixels_least = 3, tick_pixels = 9; /* apart; below the first none is drawn */
 constexpr float wire_alpha = 0.85f, wire_alpha_working = 1.0f;
 constexpr float wire_behind_clay = 0.55f;        /* part of the alpha that stays where clay hides the tool */
 constexpr float wire_far_side = 0.30f;           /* and on the tool's own far side */

@@ -60,7 +60,8 @@ glm::vec3 marker_tool_colour(const snapshot &s);
 
 void marker_draw_box(const marker &m, const snapshot &s, const projection &p);
 void marker_draw_lights(const marker &m, const snapshot &s, const projection &p);
-/* patches: those of s.tool_surface, made with lines; NULL for an ellipsoid. A stencil buffer is cleared and left zero. */
+/* patches: those of s.tool_surface, made with lines; NULL for an ellipsoid. A stencil buffer is cleared and
+   left zero. */
 void marker_draw_tool(const marker &m, const snapshot &s, const projection &p, const upload *patches);
 
 #endif

@@ -74,9 +74,11 @@ TEST_F(view_hairline, is_smooth_where_it_slants)
 TEST_F(view_hairline, that_goes_behind_the_eye_ends_at_the_edge)
 {
     /* from straight ahead out to the right and past the eye */
-    const std::vector<int> red = draw({{0, 0, -100}, {60, 0, 40}, white}, {3 * 1080.0f / height});
-    for (int x = 0; x < width; x++)
-        EXPECT_EQ(at(red, x, height / 2) > 100, x >= width / 2) << x;
+    for (const float end_z : {40.0f, 0.0f}) { /* at 0 it has no place on the screen at all */
+        const std::vector<int> red = draw({{0, 0, -100}, {60, 0, end_z}, white}, {3 * 1080.0f / height});
+        for (int x = 0; x < width; x++)
+            EXPECT_EQ(at(red, x, height / 2) > 100, x >= width / 2) << x << " " << end_z;
+    }
     for (const int value : draw({{-5, 0, 1}, {5, 1, 40}, white}, {}))
         ASSERT_EQ(value, 0) << "all of it behind the eye";
 }

@@ -6,6 +6,8 @@
 #include "field_fill.h"
 #include "view/marker.h"
 
+#include <algorithm>
+
 namespace {
 
 class view_meeting : public bare_frame {

@@ -11,6 +11,7 @@ bool lens_open(lens *l, std::string *trouble_out)
     if (!program_open("lens", {hollow_shader_screen}, {lens_shader_fragment}, &l->program, trouble_out))
         return false;
     l->depth_range = program_uniform(l->program, "u_depth_range");
+    l->origin = program_uniform(l->program, "u_origin");
     l->at = program_uniform(l->program, "u_lens");
     glUseProgram(l->program);
     glUniform1i(program_uniform(l->program, "u_sharp"), 0);
@@ -29,13 +30,14 @@ void lens_close(lens *l)
 }
 
 void lens_draw(const lens &l, GLuint sharp, GLuint hollow, const projection &p, double focus_mm, double blur,
-               int height)
+               int height, const glm::vec2 &origin)
 {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glUseProgram(l.program);
     glUniform2f(l.depth_range, static_cast<float>(p.near_mm), static_cast<float>(p.far_mm));
+    glUniform2f(l.origin, origin.x, origin.y);
     glUniform3f(l.at, static_cast<float>(focus_mm), static_cast<float>(blur * LENS_WIDEST * height),
                 static_cast<float>(LENS_LIMIT * height));
     glActiveTexture(GL_TEXTURE1);

@@ -23,13 +23,14 @@ constexpr double LENS_WIDEST = 0.11, LENS_LIMIT = 0.014;
 
 struct lens {
     GLuint program = 0, empty_array = 0;
-    GLint depth_range = -1, at = -1;
+    GLint depth_range = -1, at = -1, origin = -1;
 };
 
 [[nodiscard]] bool lens_open(lens *l, std::string *trouble_out);
 void lens_close(lens *l);
-/* Into the framebuffer that is bound. sharp, hollow: textures. height: of the whole picture, pixels. */
+/* Into the framebuffer that is bound. sharp, hollow: textures. height: of the whole picture, origin: of this part of it, from
+   the lower left corner; pixels. */
 void lens_draw(const lens &l, GLuint sharp, GLuint hollow, const projection &p, double focus_mm, double blur,
-               int height);
+               int height, const glm::vec2 &origin);
 
 #endif

@@ -14,6 +14,7 @@ inline constexpr char lens_shader_fragment[] = R"(
 uniform sampler2D u_sharp;
 uniform sampler2D u_hollow;
 uniform vec2 u_depth_range;
+uniform vec2 u_origin; /* of this part of the picture, pixels */
 uniform vec3 u_lens; /* focus mm, widest pixels, limit pixels */
 layout(location = 0) out vec4 f_colour;
 const int TAPS = 32;
@@ -31,7 +32,7 @@ float unrest(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.067
 void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(u_sharp, 0) - 1;
-    float depth = deep(at), mine = disc(depth), turn = 6.2831853 * unrest(floor(gl_FragCoord.xy));
+    float depth = deep(at), mine = disc(depth), turn = 6.2831853 * unrest(floor(gl_FragCoord.xy) + u_origin);
     vec3 sum = texelFetch(u_sharp, at, 0).rgb;
     float weights = 1.0;
     for (int k = 0; k < TAPS; k++) {

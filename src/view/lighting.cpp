@@ -26,6 +26,7 @@ lighting_uniforms lighting_find(GLuint program)
     at.place = program_uniform(program, "u_light_place[0]");
     at.colour = program_uniform(program, "u_light_colour[0]");
     at.irradiance = program_uniform(program, "u_irradiance[0]");
+    at.origin = program_uniform(program, "u_origin");
     at.shadow_taps = program_uniform(program, "u_shadow_taps");
     at.shadow_from_eye = program_uniform(program, "u_shadow_from_eye");
     at.shadow = program_uniform(program, "u_shadow");
@@ -45,6 +46,7 @@ void lighting_set(const lighting_uniforms &at, const lighting &light)
     glUniform3fv(at.place, SNAPSHOT_LIGHTS, glm::value_ptr(light.lamps.place[0]));
     glUniform3fv(at.colour, SNAPSHOT_LIGHTS, glm::value_ptr(light.lamps.colour[0]));
     glUniform3fv(at.irradiance, SCENERY_COEFFICIENTS, light.scenery->irradiance[0].data());
+    glUniform2f(at.origin, light.origin.x, light.origin.y);
     glUniform1i(at.shadow_taps, light.shadow_taps);
     const glm::mat4 shadow_from_eye(light.sight.lamp_from_eye * light.mono_from_eye);
     const double near = light.sight.from_lamp.near_mm, far = light.sight.from_lamp.far_mm;

@@ -38,10 +38,11 @@ struct lighting {
     GLuint hollow = 0;
     float hollow_strength = 0; /* 0: none */
     double near_mm = 0, far_mm = 1;
+    glm::vec2 origin{0}; /* of this part of the picture, from the whole's lower left corner, pixels */
 };
 
 struct lighting_uniforms {
-    GLint count = -1, place = -1, colour = -1, irradiance = -1;
+    GLint count = -1, place = -1, colour = -1, irradiance = -1, origin = -1;
     GLint shadow_taps = -1, shadow_from_eye = -1, shadow = -1;
     GLint hollow_strength = -1, depth_range = -1;
 };

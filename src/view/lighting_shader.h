@@ -17,6 +17,7 @@
 #define GLAISE_VIEW_LIGHTING_SHADER_H
 
 inline constexpr char lighting_shader_text[] = R"(
+uniform vec2 u_origin; /* of this part of the picture, pixels: its unrest goes on from the next part's */
 uniform vec3 u_irradiance[9];
 uniform int u_light_count;
 uniform vec3 u_light_place[4];
@@ -107,7 +108,7 @@ float shadowed(vec3 eye, vec3 n, vec3 toward)
     vec2 slope = slope_of(at, eye, n, texel_mm);
     float steepest = 6.0 * u_shadow.w * texel_mm / max(deep * u_shadow.x * facing * facing, 1e-9);
     slope *= min(1.0, steepest / max(length(slope), 1e-9));
-    float turn = unrest(floor(gl_FragCoord.xy)) * 6.2831853;
+    float turn = unrest(floor(gl_FragCoord.xy) + u_origin) * 6.2831853;
     float wide = 1.5 * u_shadow.x, sure = 1.0; /* of the edge, in the map */
     if (u_shadow_taps > 6) {
         /* The map's depth d is a perspective's: near / z = 1 - d (far - near) / far. As wide as the lamp is seen

@@ -294,7 +294,7 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
         glBindFramebuffer(GL_FRAMEBUFFER, v->blurred.framebuffer);
         glViewport(0, 0, v->blurred.width, v->blurred.height);
         lens_draw(v->blur, v->sharp.texture, v->hollows.smoothed.texture, t->p, t->s.eyes.plane_mm, t->s.effects.blur,
-                  t->looks.height);
+                  t->looks.height, t->light.origin);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         v->last = &v->blurred;
         v->passes++;
@@ -332,6 +332,7 @@ setting setting_of(const view &v, const snapshot &s, stereo_size size, stereo_si
     t.rules.hollow_taps = lit && v.limits.hollows ? t.rules.hollow_taps : 0;
     t.lens = !shows_cubes(s) && v.limits.lens && t.rules.blur && s.effects.blur > 0;
     t.hollows = t.lens || (t.rules.hollow_taps > 0 && s.effects.occlusion > 0);
+    t.light.origin = glm::vec2(part.x, size.height - part.y - part.height);
     t.light.scenery = &v.around;
     t.light.shadow = &v.lamp_shadow;
     return t;

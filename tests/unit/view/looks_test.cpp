@@ -4,6 +4,8 @@
  * Method: balls whose shadows, hollows and mirror images can be told by geometry; each effect on and off. */
 #include "view_stage.h"
 
+#include <algorithm>
+
 namespace {
 
 constexpr uint32_t clay_rgba = view_stage_rgba(190, 120, 80);

@@ -79,7 +79,7 @@ menu_answer entry_do(menu *m, const menu_tree_entry &e, const sight &s)
             out.said = "nothing else would open the menu: give that to another pedal or button first";
             continue;
         }
-        if (c.kind == COMMAND_PICTURE || c.kind == COMMAND_EXPORT)
+        if (c.kind == COMMAND_PICTURE || c.kind == COMMAND_EXPORT || c.kind == COMMAND_TURNTABLE)
             m->name++;
         if (c.kind == COMMAND_COLOUR)
             swatch_add(m, static_cast<uint32_t>(c.number[0]));

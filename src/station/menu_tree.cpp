@@ -13,6 +13,7 @@ using sight = menu_now_sight;
 using icons = std::vector<snapshot_menu_icon>;
 using texts = std::vector<std::string>;
 
+constexpr double TURNTABLE_FRAMES = 72; /* three seconds of film; five degrees each */
 constexpr double FIT_DISTANCE = 3.6; /* of half the diagonal: 1 / sin of half the field of view, and some air */
 
 /* White to candle light, and the two that show form by contrast. */
@@ -335,13 +336,16 @@ menu_tree_page piece_page(const sight &s)
 {
     menu_tree_entry picture = does("picture", SNAPSHOT_MENU_ICON_PICTURE, {"picture " + numbered("picture", s, "png")});
     picture.value = numbered("picture", s, "png");
+    std::string turned = numbered("round", s, "");
+    turned.pop_back(); /* each picture's own number and ending come behind it */
     return {"piece",
             {does("redo", SNAPSHOT_MENU_ICON_REDO, {"redo"}),
              does("other branch", SNAPSHOT_MENU_ICON_FORK, {"fork"}), picture,
              leads("as a file", SNAPSHOT_MENU_ICON_EXPORT, MENU_TREE_EXPORT),
              leads("clear all", SNAPSHOT_MENU_ICON_CLEAR, MENU_TREE_CLEAR),
              leads("workspace", SNAPSHOT_MENU_ICON_BOX, MENU_TREE_WORKSPACE),
-             does("undo", SNAPSHOT_MENU_ICON_UNDO, {"undo"})}};
+             does("undo", SNAPSHOT_MENU_ICON_UNDO, {"undo"}),
+             does("once round", SNAPSHOT_MENU_ICON_PICTURE, {line("turntable " + turned, {TURNTABLE_FRAMES})})}};
 }
 
 menu_tree_page clear_page()

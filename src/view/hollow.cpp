@@ -56,6 +56,7 @@ bool hollow_open(hollow *h, std::string *trouble_out)
     h->depth_range = program_uniform(h->hidden_program, "u_depth_range");
     h->clip = program_uniform(h->hidden_program, "u_clip");
     h->reach = program_uniform(h->hidden_program, "u_reach");
+    h->origin = program_uniform(h->hidden_program, "u_origin");
     h->taps = program_uniform(h->hidden_program, "u_taps");
     glGenVertexArrays(1, &h->empty_array);
     return true;
@@ -115,7 +116,8 @@ void hollow_begin(const hollow &h)
     glClear(GL_DEPTH_BUFFER_BIT);
 }
 
-void hollow_end(const hollow &h, const projection &p, double reach_mm, int taps)
+void hollow_end(const hollow &h, const projection &p, double reach_mm, double widest_pixels, int taps,
+                const glm::vec2 &origin)
 {
     const GLenum depth = GL_DEPTH_ATTACHMENT;
     glInvalidateFramebuffer(GL_FRAMEBUFFER, 1, &depth);
@@ -129,8 +131,9 @@ void hollow_end(const hollow &h, const projection &p, double reach_mm, int taps)
     glUniform2f(h.depth_range, static_cast<float>(p.near_mm), static_cast<float>(p.far_mm));
     glUniform4f(h.clip, static_cast<float>(c[0][0]), static_cast<float>(c[1][1]), static_cast<float>(c[2][0]),
                 static_cast<float>(c[2][1]));
-    glUniform1f(h.reach, static_cast<float>(reach_mm));
+    glUniform2f(h.reach, static_cast<float>(reach_mm), static_cast<float>(widest_pixels / 2));
     glUniform1i(h.taps, taps);
+    glUniform2i(h.origin, static_cast<GLint>(origin.x) / 2, static_cast<GLint>(origin.y) / 2);
     glBindTexture(GL_TEXTURE_2D, h.relief.texture);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindFramebuffer(GL_FRAMEBUFFER, h.smoothed.framebuffer);

@@ -23,7 +23,8 @@
 #include <string>
 
 enum { HOLLOW_TAPS = 14, HOLLOW_TAPS_FEWER = 8 };
-constexpr double HOLLOW_REACH = 0.075; /* of the camera's distance */
+constexpr double HOLLOW_REACH = 0.075;  /* of the camera's distance */
+constexpr double HOLLOW_WIDEST = 0.122; /* and no wider, of the whole picture's height: parts have such a margin */
 
 struct hollow_buffer {
     GLuint texture = 0, framebuffer = 0;
@@ -31,7 +32,7 @@ struct hollow_buffer {
 
 struct hollow {
     GLuint hidden_program = 0, smoothed_program = 0;
-    GLint depth_range = -1, clip = -1, reach = -1, taps = -1;
+    GLint depth_range = -1, clip = -1, reach = -1, taps = -1, origin = -1;
     int width = 0, height = 0; /* half the picture's, rounded up */
     hollow_buffer relief, hidden, smoothed;
     GLuint depth = 0, empty_array = 0;
@@ -42,7 +43,9 @@ void hollow_close(hollow *h);
 /* For a picture of this size. */
 [[nodiscard]] bool hollow_size(hollow *h, int picture_width, int picture_height, std::string *trouble_out);
 
+/* widest_pixels: of the picture's. origin: of this part of the picture, from the whole's lower left corner, pixels. */
 void hollow_begin(const hollow &h);
-void hollow_end(const hollow &h, const projection &p, double reach_mm, int taps);
+void hollow_end(const hollow &h, const projection &p, double reach_mm, double widest_pixels, int taps,
+                const glm::vec2 &origin);
 
 #endif

@@ -43,8 +43,9 @@ inline constexpr char hollow_shader_hidden[] = R"(
 uniform highp usampler2D u_relief;
 uniform vec2 u_depth_range;
 uniform vec4 u_clip;   /* of the projection: x and y scales, x and y shifts by depth */
-uniform float u_reach; /* mm */
+uniform vec2 u_reach;  /* mm; and no wider than so many pixels */
 uniform int u_taps;
+uniform ivec2 u_origin; /* of this part of the picture: turns go on from the next part's */
 layout(location = 0) out vec4 f_hollow;
 
 float deep(uint d) { return mix(u_depth_range.x, u_depth_range.y, float(d) / 65534.0); }
@@ -88,10 +89,11 @@ void main()
         f_hollow = vec4(1.0, 0.5, 1.0, 1.0);
         return;
     }
-    float depth = deep(r.b), slack = 0.002 * u_reach + 0.00004 * depth;
+    float depth = deep(r.b), slack = 0.002 * u_reach.x + 0.00004 * depth;
     vec3 p = place(gl_FragCoord.xy, depth), n = normal(r.rg);
-    float pixels = u_reach * abs(u_clip.y) * 0.5 * float(size.y) / depth;
-    int turn = (at.x & 3) * 4 + (at.y & 3);
+    float pixels = min(u_reach.x * abs(u_clip.y) * 0.5 * float(size.y) / depth, u_reach.y);
+    ivec2 turns = (at + u_origin) & 3;
+    int turn = turns.x * 4 + turns.y;
     float angle = 6.2831853 * float(turn * 7 & 15) / 16.0, hidden = 0.0;
     for (int k = 0; k < u_taps; k++) {
         float part = (float(k) + 0.5 + float(turn & 1) * 0.4) / float(u_taps);
@@ -102,8 +104,8 @@ void main()
         if (q.b == 65535u)
             continue;
         vec3 way = place(vec2(there) + 0.5, deep(q.b)) - p;
-        float square = dot(way, way) / (u_reach * u_reach);
-        float over = max(dot(way, n) - slack, 0.0) / u_reach;
+        float square = dot(way, way) / (u_reach.x * u_reach.x);
+        float over = max(dot(way, n) - slack, 0.0) / u_reach.x;
         hidden += part * max(1.0 - square, 0.0) * over / (square + 0.015);
     }
     float open = max(1.0 - 5.5 * hidden / float(u_taps), 0.0);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What:    Everything in the picture that is not clay: the tool, the lights, the workspace box.
- * Is not:  The ring on the clay where an ellipsoid meets it (layer_shader.h, drawn with the clay); the tool's place over
- *          the floor (plumb.h, drawn here with it); lines themselves (hairline.h); menus (overlay.h).
+ * Is not:  The ring on the clay where an ellipsoid meets it (layer_shader.h, drawn with the clay); the tool's place
+ *          over the floor (plumb.h, drawn here with it); lines themselves (hairline.h); menus (overlay.h).
  * Shape:   all are drawn after the clay, against its depth:
  *
  *              tool, wire         an ellipsoid shows the limit of its influence by circles of latitude and longitude,

@@ -202,7 +202,8 @@ void find_hollows(view *v, setting *t, bool wheel)
     if (wheel)
         wheel_draw_relief(v->turntable, t->s, t->p);
     hollow_end(v->hollows, t->p, HOLLOW_REACH * t->s.camera_distance,
-               t->rules.hollow_taps ? t->rules.hollow_taps : HOLLOW_TAPS_FEWER);
+               HOLLOW_WIDEST * t->height * t->rules.scale,
+               t->rules.hollow_taps ? t->rules.hollow_taps : HOLLOW_TAPS_FEWER, t->light.origin);
     t->light.hollow = v->hollows.smoothed.texture;
     t->light.hollow_strength = t->rules.hollow_taps ? std::clamp(t->s.effects.occlusion, 0.0f, 1.0f) : 0;
     v->passes += 3;

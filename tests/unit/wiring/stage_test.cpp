@@ -127,6 +127,7 @@ protected:
 TEST_F(stage_pictures, tiles_are_the_picture_drawn_whole)
 {
     constexpr int width = 2300, height = 2100; /* a seam each way, at 1920 */
+    shown.effects.floor = false; /* a few very large triangles: cut at another border, they are interpolated otherwise */
     std::string text;
     ASSERT_TRUE(stage_picture(scene, piece.get(), shown, {width, height, 1}, at("tiled.png"), &text)) << text;
     const picture_source tiled = read(at("tiled.png"));

@@ -96,7 +96,7 @@ dvec3 window(const dvec3 &r)
 dvec3 strips(const dvec3 &r)
 {
     const double across = std::asin(std::clamp(r.x, -1.0, 1.0)) * (180 / std::numbers::pi);
-    const double wave = std::abs(std::remainder(across, 15.0)); /* degrees from the next tube's middle */
+    const double wave = std::abs(std::remainder(across - 7.5, 15.0)); /* degrees from the next tube; none right behind */
     const double tube = 1 - step_smooth(2.2, 3.2, wave);
     const double high = 0.35 + 0.65 * step_smooth(-0.9, 0.2, r.y);
     return dvec3(0.030, 0.032, 0.036) + dvec3(1.75, 1.78, 1.85) * (tube * high);

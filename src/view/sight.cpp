@@ -36,9 +36,8 @@ void hold_tool(const upload &tool_patches, const snapshot &s, const glm::dmat4 &
 
 } // namespace
 
-projection_ball sight_of_clay(const snapshot &s, const upload &patches, const glm::dmat4 &eye_from_world)
+projection_ball sight_of_bricks(const snapshot &s, const box &b, const glm::dmat4 &eye_from_world)
 {
-    const box b = patches.bricks;
     if (box_is_empty(b))
         return {};
     const double brick_mm = s.step_mm * brick_steps;
@@ -46,12 +45,14 @@ projection_ball sight_of_clay(const snapshot &s, const upload &patches, const gl
                                   brick_mm * (glm::dvec3(b.max.i, b.max.j, b.max.k) + 1.0));
 }
 
-projection sight_of(const snapshot &s, const upload &patches, const upload &tool_patches, int width, int height)
+projection sight_of(const snapshot &s, const upload &patches, const upload &tool_patches, const box &cubes_bricks,
+                    int width, int height)
 {
     const glm::dmat4 eye_from_world = projection_eye_from_world(s);
     std::vector<projection_ball> held;
-    if (!box_is_empty(patches.bricks))
-        held.push_back(sight_of_clay(s, patches, eye_from_world));
+    for (const box &b : {patches.bricks, cubes_bricks})
+        if (!box_is_empty(b))
+            held.push_back(sight_of_bricks(s, b, eye_from_world));
     if (s.tool_style != SNAPSHOT_TOOL_HIDDEN)
         hold_tool(tool_patches, s, eye_from_world, &held);
     if (s.box_shown)

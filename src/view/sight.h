@@ -10,9 +10,10 @@
 #include "view/projection.h"
 #include "view/upload.h"
 
-/* clay, tool: the patches that are held on the device. */
-projection sight_of(const snapshot &s, const upload &patches, const upload &tool_patches, int width, int height);
-/* A ball round the clay; a radius of 0 where there is none. */
-projection_ball sight_of_clay(const snapshot &s, const upload &patches, const glm::dmat4 &eye_from_world);
+/* patches: those that are held on the device; cubes_bricks: bricks of what is drawn in place of the clay, or empty. */
+projection sight_of(const snapshot &s, const upload &patches, const upload &tool_patches, const box &cubes_bricks,
+                    int width, int height);
+/* A ball round bricks; a radius of 0 where there are none. */
+projection_ball sight_of_bricks(const snapshot &s, const box &b, const glm::dmat4 &eye_from_world);
 
 #endif

@@ -176,7 +176,7 @@ glm::dvec3 raking_lamp(const projection_ball &ball)
 
 void cast_shadow(view *v, setting *t)
 {
-    const projection_ball ball = sight_of_clay(t->s, v->clay, t->p.eye_from_world);
+    const projection_ball ball = sight_of_bricks(t->s, v->clay.bricks, t->p.eye_from_world);
     const bool raking = t->s.look == SNAPSHOT_LOOK_RAKING;
     if (!t->s.effects.shadows || !(ball.radius > 0) || (t->light.lamps.count == 0 && !raking))
         return;
@@ -341,7 +341,7 @@ setting setting_of(const view &v, const snapshot &s, stereo_size size, stereo_si
 
 projection project(const view &v, const snapshot &s, stereo_size looks)
 {
-    const projection p = sight_of(s, v.clay, v.tool, looks.width, looks.height);
+    const projection p = sight_of(s, v.clay, v.tool, v.structure.shown.within, looks.width, looks.height);
     return s.effects.mirrored ? projection_mirrored(p) : p;
 }
 
@@ -360,7 +360,7 @@ bool draw_mono(view *v, const snapshot &s, stereo_size size, const view_part &pa
 /* How near and far what is looked at reaches. */
 void reach_of(const view &v, const snapshot &s, const projection &p, double *nearest_out, double *farthest_out)
 {
-    const projection_ball ball = sight_of_clay(s, v.clay, p.eye_from_world);
+    const projection_ball ball = sight_of_bricks(s, v.clay.bricks, p.eye_from_world);
     *nearest_out = std::max(p.near_mm, -ball.middle_eye.z - ball.radius);
     *farthest_out = std::min(p.far_mm, -ball.middle_eye.z + ball.radius);
     if (!(ball.radius > 0) || !(*nearest_out < *farthest_out)) {

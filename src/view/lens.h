@@ -28,8 +28,8 @@ struct lens {
 
 [[nodiscard]] bool lens_open(lens *l, std::string *trouble_out);
 void lens_close(lens *l);
-/* Into the framebuffer that is bound. sharp, hollow: textures. height: of the whole picture; origin: of this part of it,
-   from the lower left corner; pixels. */
+/* Into the framebuffer that is bound. sharp, hollow: textures. height: of the whole picture; origin: of this part, from
+   the whole's lower left corner; pixels. */
 void lens_draw(const lens &l, GLuint sharp, GLuint hollow, const projection &p, double focus_mm, double blur,
                int height, const glm::vec2 &origin);
 

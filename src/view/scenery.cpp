@@ -96,7 +96,7 @@ dvec3 window(const dvec3 &r)
 dvec3 strips(const dvec3 &r)
 {
     const double across = std::asin(std::clamp(r.x, -1.0, 1.0)) * (180 / std::numbers::pi);
-    const double wave = std::abs(std::remainder(across - 7.5, 15.0)); /* degrees from the next tube; none right behind */
+    const double wave = std::abs(std::remainder(across - 7.5, 15.0)); /* degrees from a tube; none right behind */
     const double tube = 1 - step_smooth(2.2, 3.2, wave);
     const double high = 0.35 + 0.65 * step_smooth(-0.9, 0.2, r.y);
     return dvec3(0.030, 0.032, 0.036) + dvec3(1.75, 1.78, 1.85) * (tube * high);
@@ -335,7 +335,7 @@ bool scenery_open(scenery *s, snapshot_scenery which, const scenery_picture &own
     while (levels.back().side > 1)
         levels.push_back(level_halved(levels.back()));
     s->mirror = texture_of(levels);
-    levels.assign(1, std::move(l));
+    levels = {levels[1]}; /* a blur needs no finer beginning */
     for (int n = 1; n <= SCENERY_ROUGHEST; n++)
         levels.push_back(level_rough(levels.back(), (n - 1) / roughest, n / roughest));
     s->rough = texture_of(levels);

@@ -11,7 +11,7 @@
  *
  *              mirror           SCENERY_SIDE pixels a side, with the usual mipmaps: what a mirror shows
  *              rough            level n: as a surface of roughness n / SCENERY_ROUGHEST shows it, half the side of
- *                               the one before
+ *                               the one before, the first half the mirror's
  *              irradiance       spherical harmonics to the second order, already convolved with the cosine and divided
  *                               by pi: light on a normal n is the sum over irradiance[i] Y_i(n)
  *

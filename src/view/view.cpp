@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "view/view.h"
 
-#include "view/backdrop_shader.h"
+#include "view/backdrop.h"
 #include "view/canvas.h"
-#include "view/colour_shader.h"
 #include "view/cubes.h"
 #include "view/hollow.h"
 #include "view/lens.h"
@@ -47,8 +46,7 @@ struct view {
     hollow hollows;
     lens blur;
     stereo both;
-    GLuint backdrop = 0, empty_array = 0;
-    GLint backdrop_aspect = -1, backdrop_part = -1, backdrop_look = -1, backdrop_shift = -1;
+    backdrop ground;
 
     scenery around;
     snapshot_scenery around_is = SNAPSHOT_SCENERIES; /* which scenery that is; none yet */
@@ -98,8 +96,15 @@ void lack(view *v, const char *what, const std::string &why)
     v->lacks += std::string(v->lacks.empty() ? "" : "; ") + what + ": " + why;
 }
 
+/* Without the clay's own program the plain look serves. */
+bool open_clay(view *v, const std::string &why_not, std::string *why)
+{
+    *why = why_not;
+    return v->clay_skin.clay.program != 0;
+}
+
 /* Each of these the picture can do without. */
-void open_effects(view *v)
+void open_effects(view *v, const std::string &skin_trouble)
 {
     const std::string forbidden = "not wanted here";
     const auto open = [v, &forbidden](bool *wanted, const char *what, auto &&opened) {
@@ -110,6 +115,12 @@ void open_effects(view *v)
         lack(v, what, why);
     };
     view_limits *l = &v->limits;
+    open(&l->clay, "the plain look only",
+         [v, &skin_trouble](std::string *why) { return open_clay(v, skin_trouble, why); });
+    if (!l->clay) {
+        program_close(v->clay_skin.clay.program);
+        v->clay_skin.clay = {};
+    }
     open(&l->shadows, "no shadows",
          [v](std::string *why) { return v->clay_skin.depth.program != 0 && shadow_open(&v->lamp_shadow, why); });
     open(&l->hollows, "no darker hollows",
@@ -118,37 +129,27 @@ void open_effects(view *v)
     open(&l->lens, "no depth of field",
          [v](std::string *why) { return v->limits.hollows && lens_open(&v->blur, why); });
     open(&l->stereo, "no stereo", [v](std::string *why) { return stereo_open(&v->both, why); });
+    open(&l->backdrop, "an even ground", [v](std::string *why) { return backdrop_open(&v->ground, why); });
+    open(&l->marks, "neither tool nor box nor lights", [v](std::string *why) { return marker_open(&v->markers, why); });
+    open(&l->cubes, "no cubes", [v](std::string *why) { return cubes_open(&v->structure, why); });
+    open(&l->words, "no menus", [v](std::string *why) { return (v->words = overlay_open(why)) != nullptr; });
 }
 
 bool open_all(view *v, std::string *trouble_out)
 {
-    std::string why;
-    if (!skin_open(&v->clay_skin, &why) ||
-        !program_open("backdrop", {backdrop_shader_vertex}, {colour_shader_text, backdrop_shader_fragment},
-                      &v->backdrop, &why) ||
-        !marker_open(&v->markers, &why) || !cubes_open(&v->structure, &why) ||
-        !scenery_open(&v->around, SNAPSHOT_SCENERY_STUDIO, v->own, &why)) {
-        *trouble_out = why;
+    std::string skin_trouble, text;
+    if (!skin_open(&v->clay_skin, &skin_trouble)) {
+        *trouble_out = skin_trouble;
         return false;
     }
-    v->words = overlay_open(trouble_out);
-    if (!v->words)
+    if (!scenery_open(&v->around, SNAPSHOT_SCENERY_STUDIO, v->own, trouble_out))
         return false;
     v->around_is = SNAPSHOT_SCENERY_STUDIO;
-    if (!v->limits.clay) {
-        program_close(v->clay_skin.clay.program);
-        v->clay_skin.clay = {};
-    }
-    if (v->clay_skin.clay.program == 0)
-        lack(v, "the plain look only", why.empty() ? "not wanted here" : why);
-    v->backdrop_aspect = program_uniform(v->backdrop, "u_aspect");
-    v->backdrop_part = program_uniform(v->backdrop, "u_part");
-    v->backdrop_look = program_uniform(v->backdrop, "u_look");
-    v->backdrop_shift = program_uniform(v->backdrop, "u_shift");
-    glGenVertexArrays(1, &v->empty_array);
     upload_init(&v->clay, false);
     upload_init(&v->tool, true);
-    open_effects(v);
+    open_effects(v, skin_trouble);
+    if (v->words && overlay_message_take(v->words, &text))
+        lack(v, "plain letters", text);
     glUseProgram(0);
     return true;
 }
@@ -212,43 +213,31 @@ void find_hollows(view *v, setting *t, bool wheel)
 
 /* --- one picture --- */
 
-bool shows_cubes(const snapshot &s) { return s.structure != SNAPSHOT_STRUCTURE_SURFACE; }
-
-void draw_backdrop(const view &v, const setting &t)
+bool shows_cubes(const view &v, const snapshot &s)
 {
-    const view_part &q = t.part;
-    const auto share = [](double part, double whole) { return static_cast<float>(part / whole); };
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glUseProgram(v.backdrop);
-    glUniform1f(v.backdrop_aspect, share(t.looks.width, t.looks.height));
-    glUniform1f(v.backdrop_shift, static_cast<float>(t.far_shift));
-    glUniform4f(v.backdrop_part, share(2 * q.x + q.width, t.width) - 1, 1 - share(2 * q.y + q.height, t.height),
-                share(q.width, t.width), share(q.height, t.height));
-    glUniform1i(v.backdrop_look, skin_look(v.clay_skin, t.s.look));
-    glBindVertexArray(v.empty_array);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindVertexArray(0);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
+    return v.limits.cubes && s.structure != SNAPSHOT_STRUCTURE_SURFACE;
 }
 
 void draw_scene(view *v, setting *t, bool wheel)
 {
     canvas_begin(v->drawn);
-    draw_backdrop(*v, *t);
+    const view_part &q = t->part;
+    backdrop_draw(v->ground, skin_look(v->clay_skin, t->s.look),
+                  {t->width, t->height, static_cast<double>(t->looks.width) / t->looks.height,
+                   {q.x, q.y, q.width, q.height}, t->far_shift});
     lighting_bind(t->light);
-    if (shows_cubes(t->s))
+    if (shows_cubes(*v, t->s))
         cubes_draw(v->structure, t->s, t->p);
     else
         skin_draw(v->clay_skin, v->clay, t->s, t->p, t->light);
     if (wheel)
         wheel_draw(v->turntable, t->s, t->p, t->light);
     lighting_release();
-    marker_draw_box(v->markers, t->s, t->p);
-    marker_draw_lights(v->markers, t->s, t->p);
-    marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr);
+    if (v->limits.marks) {
+        marker_draw_box(v->markers, t->s, t->p);
+        marker_draw_lights(v->markers, t->s, t->p);
+        marker_draw_tool(v->markers, t->s, t->p, t->s.tool_surface ? &v->tool : nullptr);
+    }
     glUseProgram(0);
     v->passes++;
     v->page_draws += static_cast<uint32_t>(v->clay.pages.size() + v->tool.pages.size());
@@ -313,6 +302,8 @@ bool draw_eye(view *v, setting *t, std::string *trouble_out)
 /* Sharp, and the right way round, whatever was done to the picture. */
 void draw_words(const view &v, const setting &t, double shift_pixels)
 {
+    if (!v.words)
+        return;
     const canvas_target &into = *v.last;
     const double across = static_cast<double>(t.width) / t.looks.width,
                  down = static_cast<double>(t.height) / t.looks.height;
@@ -328,10 +319,10 @@ setting setting_of(const view &v, const snapshot &s, stereo_size size, stereo_si
 {
     setting t{s, size.width, size.height, looks, part, quality_rules_of(v.pace.level), false, false, {}, {}};
     const snapshot_look look = skin_look(v.clay_skin, s.look);
-    const bool lit = !shows_cubes(s) && (look == SNAPSHOT_LOOK_CLAY || look == SNAPSHOT_LOOK_RAKING);
+    const bool lit = !shows_cubes(v, s) && (look == SNAPSHOT_LOOK_CLAY || look == SNAPSHOT_LOOK_RAKING);
     t.rules.shadow_taps = lit && v.limits.shadows ? t.rules.shadow_taps : 0;
     t.rules.hollow_taps = lit && v.limits.hollows ? t.rules.hollow_taps : 0;
-    t.lens = !shows_cubes(s) && v.limits.lens && t.rules.blur && s.effects.blur > 0;
+    t.lens = !shows_cubes(v, s) && v.limits.lens && t.rules.blur && s.effects.blur > 0;
     t.hollows = t.lens || (t.rules.hollow_taps > 0 && s.effects.occlusion > 0);
     t.light.origin = glm::vec2(part.x, size.height - part.y - part.height);
     t.light.scenery = &v.around;
@@ -456,8 +447,7 @@ void view_close(view *v)
     lens_close(&v->blur);
     stereo_close(&v->both);
     scenery_close(&v->around);
-    program_close(v->backdrop);
-    glDeleteVertexArrays(1, &v->empty_array);
+    backdrop_close(&v->ground);
     delete v;
 }
 
@@ -533,7 +523,7 @@ bool view_draw_part(view *v, const snapshot &s, int width, int height, const vie
         return false;
     if (!surround(v, s.scenery, trouble_out))
         return false;
-    if (!shows_cubes(s) || !v->piece)
+    if (!shows_cubes(*v, s) || !v->piece)
         cubes_clear(&v->structure);
     else if (!cubes_update(&v->structure, v->piece, s.structure, trouble_out))
         return false;

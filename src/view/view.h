@@ -65,6 +65,7 @@ struct view_limits {
     int samples = 4;
     double pixels_per_mm = 0; /* of the screen; 0: it does not say */
     bool clay = true, shadows = true, hollows = true, wheel = true, lens = true, stereo = true;
+    bool backdrop = true, marks = true, cubes = true, words = true;
 };
 
 /* NULL and a trouble when no context is current, it is older than 3.1, or the device refuses even the plain look. */

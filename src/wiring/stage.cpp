@@ -10,28 +10,54 @@
 #include "wiring/store.h"
 
 #include <cstdio>
+#include <utility>
 
 static_assert(LARGE_PICTURE_SIDE_MAX <= PICTURE_SIDE_MAX && LARGE_PICTURE_SIDE_MAX <= VIEW_SIDE_MAX);
 
 struct stage {
     display *place = nullptr;
     view *eye = nullptr;
+    std::string scenery; /* path of the picture that was brought last, to be read again */
 };
+
+namespace {
+
+void shut(stage *s)
+{
+    view_close(std::exchange(s->eye, nullptr));
+    display_close(std::exchange(s->place, nullptr));
+}
+
+bool set_up(stage *s, std::string *text_out)
+{
+    display_trouble trouble;
+    s->place = display_open(DISPLAY_HEADLESS, &trouble);
+    if (!s->place || !display_make_current(s->place, &trouble)) {
+        *text_out = trouble.text;
+        return false;
+    }
+    s->eye = view_open(text_out);
+    return s->eye != nullptr;
+}
+
+/* A driver that was reset took everything along. */
+bool is_there(stage *s, std::string *text_out)
+{
+    if (s->eye && !display_is_lost(s->place))
+        return true;
+    std::fprintf(stderr, "glaise: the graphics driver was reset; the picture is made anew\n");
+    return stage_renew(s, text_out);
+}
+
+} // namespace
 
 stage *stage_open(std::string *text_out)
 {
-    display_trouble trouble;
     auto *s = new stage;
-    s->place = display_open(DISPLAY_HEADLESS, &trouble);
-    if (s->place && display_make_current(s->place, &trouble)) {
-        s->eye = view_open(text_out);
-        if (s->eye) {
-            if (!view_lacks(s->eye).empty())
-                std::fprintf(stderr, "glaise: pictures are poorer here: %s\n", view_lacks(s->eye).c_str());
-            return s;
-        }
-    } else {
-        *text_out = trouble.text;
+    if (set_up(s, text_out)) {
+        if (!view_lacks(s->eye).empty())
+            std::fprintf(stderr, "glaise: pictures are poorer here: %s\n", view_lacks(s->eye).c_str());
+        return s;
     }
     stage_close(s);
     return nullptr;
@@ -41,17 +67,26 @@ void stage_close(stage *s)
 {
     if (!s)
         return;
-    if (s->eye)
-        view_close(s->eye);
-    display_close(s->place);
+    shut(s);
     delete s;
+}
+
+bool stage_renew(stage *s, std::string *text_out)
+{
+    shut(s);
+    if (!set_up(s, text_out))
+        return false;
+    std::string unread; /* it was told when it was brought, or the file has gone since: the studio serves */
+    if (!s->scenery.empty() && !stage_scenery(s, s->scenery, &unread))
+        std::fprintf(stderr, "glaise: %s\n", unread.c_str());
+    return true;
 }
 
 bool stage_picture(stage *s, const sculpture *piece, const snapshot &shown, const large_picture_size &size,
                    const std::string &path, std::string *text_out, const std::function<void(double)> &told)
 {
     std::string trouble = large_picture_trouble(size);
-    if (!trouble.empty() || !view_update(s->eye, piece, &trouble)) {
+    if (!trouble.empty() || !is_there(s, &trouble) || !view_update(s->eye, piece, &trouble)) {
         *text_out = path + ": " + trouble;
         return false;
     }
@@ -98,8 +133,10 @@ bool stage_scenery(stage *s, const std::string &path, std::string *text_out)
     }
     std::string trouble;
     scenery_picture own = {static_cast<int>(brought.width), static_cast<int>(brought.height), std::move(brought.rgba)};
-    if (view_scenery(s->eye, std::move(own), &trouble))
+    if (view_scenery(s->eye, std::move(own), &trouble)) {
+        s->scenery = path;
         return true;
+    }
     *text_out = path + ": " + trouble;
     return false;
 }
@@ -119,6 +156,8 @@ bool stage_picture(stage *, const sculpture *, const snapshot &, const large_pic
 {
     return false;
 }
+
+bool stage_renew(stage *, std::string *) { return false; }
 
 bool stage_scenery(stage *, const std::string &, std::string *) { return false; }
 

@@ -24,6 +24,9 @@ struct stage;
 
 stage *stage_open(std::string *text_out);
 void stage_close(stage *s); /* NULL is fine */
+/* Everything on the device anew, as after its driver was reset, which stage_picture sees to by itself: the pictures
+   after it are as those before. */
+[[nodiscard]] bool stage_renew(stage *s, std::string *text_out);
 /* told, where given, hears how far it is, 0..1. */
 [[nodiscard]] bool stage_picture(stage *s, const sculpture *piece, const snapshot &shown,
                                  const large_picture_size &size, const std::string &path, std::string *text_out,

@@ -122,6 +122,30 @@ protected:
     snapshot shown;
 };
 
+/* What a reset driver took is made anew: context, programs, patches, the scenery that was brought. */
+TEST_F(stage_pictures, everything_made_anew_looks_as_before)
+{
+    std::string text;
+    std::vector<uint8_t> panorama;
+    for (int y = 0; y < 4; y++)
+        for (int x = 0; x < 8; x++)
+            for (uint8_t byte : {x < 4 ? 250 : 10, 40, y < 2 ? 200 : 20, 255})
+                panorama.push_back(byte);
+    const picture p = {8, 4, 4, panorama.data(), 32};
+    ASSERT_TRUE(store_export(
+        at("panorama.png"), [&p](checkpoint_sink sink, void *self) { return picture_write(p, sink, self); }, &text))
+        << text;
+    ASSERT_TRUE(stage_scenery(scene, at("panorama.png"), &text)) << text;
+    shown.scenery = SNAPSHOT_SCENERY_OWN;
+    ASSERT_TRUE(stage_picture(scene, piece.get(), shown, {160, 120, 1}, at("before.png"), &text)) << text;
+    ASSERT_TRUE(stage_renew(scene, &text)) << text;
+    ASSERT_TRUE(stage_picture(scene, piece.get(), shown, {160, 120, 1}, at("after.png"), &text)) << text;
+    EXPECT_TRUE(read(at("before.png")).rgba == read(at("after.png")).rgba);
+    shown.scenery = SNAPSHOT_SCENERY_STUDIO;
+    ASSERT_TRUE(stage_picture(scene, piece.get(), shown, {160, 120, 1}, at("studio.png"), &text)) << text;
+    EXPECT_FALSE(read(at("before.png")).rgba == read(at("studio.png")).rgba) << "the scenery is seen";
+}
+
 } // namespace
 
 TEST_F(stage_pictures, tiles_are_the_picture_drawn_whole)

@@ -155,6 +155,22 @@ TEST(menu, presses_held_across_its_opening_and_closing_keep_what_they_were)
     const double here = d.place()[0];
     d.push(0.8, 0);
     EXPECT_EQ(d.place()[0], here) << "the clutch again";
+    d.let_go();
+    /* Taken inside: its up outside must not let go of what another press holds. */
+    d.do_line("pedal 2 up");
+    d.do_line("means-button 1 clutch");
+    d.open();
+    d.do_line("pedal 2 down");
+    d.back();
+    d.do_line("button 0 1 down");
+    d.do_line("pedal 2 up");
+    const double still = d.place()[0];
+    d.push(0.8, 0);
+    EXPECT_EQ(d.place()[0], still) << "the button's clutch";
+    d.let_go();
+    d.do_line("button 0 1 up");
+    d.push(0.8, 0);
+    EXPECT_GT(d.place()[0], still);
 }
 
 TEST(menu, a_number_changes_live_and_undo_brings_it_back_to_the_bit)

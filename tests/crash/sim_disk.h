@@ -36,10 +36,10 @@
 using sim_disk_bytes = std::vector<uint8_t>;
 
 /* Under a sanitizer everything takes six times as long; the other builds do all of it. */
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 enum { SIM_DISK_THIN = 7 };
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 enum { SIM_DISK_THIN = 7 };
 #else
 enum { SIM_DISK_THIN = 1 };

@@ -39,9 +39,15 @@ bool is_word_at(const std::string &line, size_t at, size_t size)
     return !is_joined_before && !is_joined_after;
 }
 
+bool is_binary(const source_tree_file &file) { return file.text.find('\0') != std::string::npos; }
+
+/* In text alone: a picture's bytes spell what they like. */
 source_tree_complaints unwanted_words(const source_tree_file &file)
 {
     source_tree_complaints complaints;
+    if (is_binary(file)) {
+        return complaints;
+    }
     const std::vector<std::string> lines = source_tree_lines(file.text);
     for (size_t i = 0; i < lines.size(); ++i) {
         const std::string at = file.path + ":" + std::to_string(i + 1) + ": ";
@@ -66,8 +72,7 @@ source_tree_complaints wrong_kind(const source_tree_file &file)
     if (strange.count(source_tree_extension(file.path)) != 0) {
         return {file.path + ": sources are .c, .cpp and .h"};
     }
-    const bool is_binary = file.text.find('\0') != std::string::npos;
-    if (is_binary && file.text.size() > 200'000) {
+    if (is_binary(file) && file.text.size() > 200'000) {
         return {file.path + ": a binary of more than 200 kB"};
     }
     if (source_tree_is_code(file.path) && !file.text.empty() && file.text.back() != '\n') {
@@ -119,6 +124,7 @@ TEST(layout, planted_words_are_seen)
     EXPECT_EQ(unwanted_words({"a.c", "int a;\n/* " + promises[0] + ": more */\n"}).size(), 1u);
     EXPECT_EQ(unwanted_words({"a.c", "// " + promises[1] + "\n"}).size(), 1u);
     EXPECT_EQ(unwanted_words({"a.c", "curl " + addresses[1] + "x.org\n"}).size(), 1u);
+    EXPECT_EQ(unwanted_words({"a.png", std::string(1, '\0') + "// " + promises[1] + "\n"}).size(), 0u);
     EXPECT_EQ(unwanted_words({"a.c", "int MAS" + promises[0] + "N;\n"}).size(), 0u);
 }
 

@@ -100,6 +100,34 @@ TEST_F(view_looks, the_crease_between_two_balls_is_darker)
     EXPECT_GT(ratio(22), 0.9);
 }
 
+/* On the floor nothing bends: what is darker there is the sky that the ball hides. */
+TEST_F(view_looks, the_floor_is_darker_where_the_ball_stands)
+{
+    ball();
+    snapshot s = looked_at();
+    s.effects.floor = true;
+    s.effects.shadows = false;
+    tilt(&s, 0.5);
+    s.effects.occlusion = 1;
+    const view_stage_picture with = draw(s);
+    s.effects.occlusion = 0;
+    const view_stage_picture without = draw(s);
+    /* Before the ball's foot, `out` mm from where it touches: turned about x by half a radian. */
+    const auto ratio = [&](double out) {
+        const double y = -radius * std::cos(0.5) - out * std::sin(0.5);
+        const double ahead = 200 - (-radius * std::sin(0.5) + out * std::cos(0.5));
+        const int row = static_cast<int>(height / 2 - focal_pixels(s) * y / ahead);
+        double a = 0, b = 0;
+        for (int x = width / 2 - 4; x <= width / 2 + 4; x++) {
+            a += with.light(x, row);
+            b += without.light(x, row);
+        }
+        return a / b;
+    };
+    EXPECT_LT(ratio(20), 0.92);
+    EXPECT_GT(ratio(40), ratio(20) + 0.03);
+}
+
 TEST_F(view_looks, the_turntable_is_there_from_above_and_not_from_below)
 {
     ball();

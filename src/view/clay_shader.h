@@ -9,7 +9,8 @@
  *                         itself, as light goes to and fro; of the lamps: wrapped a little round the terminator, red
  *                         furthest, since light wanders in clay
  *              specular   GGX with Smith's visibility and Schlick's Fresnel; alpha = sqrt(2 / (shininess + 2)),
- *                         F0 = 0.08 specular; of the scenery: its map's level of that roughness
+ *                         F0 = 0.08 specular, and at grazing angles the less
+ *                         the duller it is; of the scenery: its map's level of that roughness
  *              bend       hollows a little darker, ridges a little lighter, so that fine marks are read
  *          u_look picks: 0 clay; 2 silhouette: one flat dark; 3 raking: grey, one lamp that grazes.
  * Units:   millimetres, linear light.
@@ -40,7 +41,7 @@ float visibility(float to_eye, float to_lamp, float alpha)
 }
 
 /* A lamp's light on the surface: x the matt part's, y the shine's. */
-void lamp(vec3 n, vec3 v, vec3 toward, vec3 light, float seen, float alpha, float f0, inout vec3 matt, inout vec3 shine)
+void lamp(vec3 n, vec3 v, vec3 toward, vec3 light, float seen, float alpha, vec2 f, inout vec3 matt, inout vec3 shine)
 {
     float to_lamp = dot(n, toward), to_eye = max(dot(n, v), 1e-3);
     vec3 wrapped = clamp((to_lamp + WRAP) / (1.0 + WRAP), 0.0, 1.0);
@@ -50,13 +51,14 @@ void lamp(vec3 n, vec3 v, vec3 toward, vec3 light, float seen, float alpha, floa
     vec3 h = normalize(toward + v);
     float half_n = max(dot(n, h), 0.0), half_v = max(dot(v, h), 0.0), a = alpha * alpha;
     float round = half_n * half_n * (a - 1.0) + 1.0;
-    float fresnel = f0 + (1.0 - f0) * pow(1.0 - half_v, 5.0);
+    float fresnel = f.x + (f.y - f.x) * pow(1.0 - half_v, 5.0);
     shine += light * (seen * fresnel * to_lamp * a / (round * round) * visibility(to_eye, to_lamp, alpha));
 }
 
 vec3 lit(vec3 n, vec3 v, vec3 albedo, vec2 open)
 {
     float alpha = sqrt(2.0 / (u_material.y + 2.0)), rough = sqrt(alpha), f0 = 0.08 * u_material.x;
+    float f90 = max(f0, min(2.0 * u_material.x, 1.0) * (1.0 - rough)); /* dull clay has no hot rim */
     float to_eye = max(dot(n, v), 1e-3), sky = u_material.z * SKY_STRENGTH;
     vec3 to_and_fro = max(vec3(open.x), ((2.0404 * albedo - 0.3324) * open.x * open.x * open.x) +
         (-4.7951 * albedo + 0.6417) * open.x * open.x + (2.7552 * albedo + 0.6903) * open.x);
@@ -64,14 +66,14 @@ vec3 lit(vec3 n, vec3 v, vec3 albedo, vec2 open)
     for (int i = 0; i < u_light_count; i++) {
         vec3 toward = normalize(u_light_place[i] - v_eye);
         float seen = i == 0 ? shadowed(v_eye, n, toward) : 1.0;
-        lamp(n, v, toward, u_light_colour[i], seen * mix(1.0, open.x, 0.35), alpha, f0, matt, shine);
+        lamp(n, v, toward, u_light_colour[i], seen * mix(1.0, open.x, 0.35), alpha, vec2(f0, f90), matt, shine);
     }
     vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float edge = min(r.x * r.x, exp2(-9.28 * to_eye)) * r.x + r.y;
     vec2 split = vec2(-1.04, 1.04) * edge + r.zw;
     float hidden = clamp(pow(to_eye + open.x, exp2(-16.0 * rough - 1.0)) - 1.0 + open.x, 0.0, 1.0);
     vec3 around = textureLod(u_rough, scenery_place(reflect(-v, n)), rough * SCENERY_ROUGHEST).rgb;
-    shine += around * (f0 * split.x + split.y) * min(sky, 1.0) * hidden;
+    shine += around * (f0 * split.x + f90 * split.y) * min(sky, 1.0) * hidden;
     return albedo * matt + shine;
 }
 

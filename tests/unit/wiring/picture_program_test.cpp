@@ -6,6 +6,8 @@
  *         Pictures of the same moment, taken in different ways, are compared byte for byte. */
 #ifdef GLAISE_VIEW
 
+#include "program_shell.h"
+
 #include "exchange/picture.h"
 #include "exchange/picture_source.h"
 #include "wiring/large_picture.h"
@@ -25,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string BALL = "glaise tape 1\n@0 size 20 20 20\n+0 rate 60\n+0 apply down\n+100 apply up\n";
+const std::string &BALL = PROGRAM_SHELL_BALL;
 /* Nothing in it depends on the piece: pictures of different moments can be compared. */
 const std::string FIXED = "glaise tape 1\n@0 light 0 -120 160 160 #fff2e0 1 viewer\n+0 view 0 1 0 30 150\n"
                           "+0 centre 10 0 0\n+0 workspace -50 -50 -50 50 50 50\n+0 workspace-shown on\n"
@@ -36,16 +38,7 @@ std::string ball_at(int x, const std::string &colour)
     return "+0 place " + std::to_string(x) + " 0 0\n+0 colour " + colour + "\n+0 apply down\n+60 apply up\n";
 }
 
-struct outcome {
-    int exit = -1;
-    std::string out, err;
-};
-
-std::string text_of(const fs::path &path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using outcome = program_shell_outcome;
 
 class picture_program : public testing::Test {
 protected:
@@ -67,24 +60,21 @@ protected:
     }
     outcome run(const std::string &words, const std::string &before = "") const
     {
-        const std::string line = "cd '" + folder.string() + "' && " + before + "'" GLAISE_PROGRAM "' " + words +
-                                 " >../out.txt 2>../err.txt";
-        const int answer = std::system(line.c_str());
-        return {WIFEXITED(answer) ? WEXITSTATUS(answer) : -1, text_of(base / "out.txt"), text_of(base / "err.txt")};
+        return program_shell_run(folder, base, words, before);
     }
     void must(const std::string &words) const
     {
         const outcome o = run(words);
         ASSERT_EQ(o.exit, 0) << words << "\n" << o.err;
     }
-    std::string bytes(const std::string &name) const { return text_of(folder / name); }
+    std::string bytes(const std::string &name) const { return program_shell_text(folder / name); }
     bool is_there(const std::string &name) const { return fs::exists(folder / name); }
     std::map<std::string, std::string> all_in(const std::string &name) const
     {
         std::map<std::string, std::string> all;
         for (const auto &entry : fs::recursive_directory_iterator(folder / name))
             if (entry.is_regular_file())
-                all[entry.path().string()] = text_of(entry.path());
+                all[entry.path().string()] = program_shell_text(entry.path());
         return all;
     }
     picture_source read(const std::string &name) const

@@ -3,6 +3,8 @@
  *       something given is wrong, files whole or absent, undo across runs, gestures that no lattice bounds.
  * Method: the real program is started in a child process, in a folder of its own, and what it says and leaves is looked
  *         at. A full disk is a small tmpfs where one may be mounted, and a limit on the size of files everywhere. */
+#include "program_shell.h"
+
 #include "station/command.h"
 #include "wiring/store.h"
 
@@ -25,18 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string BALL = "glaise tape 1\n@0 size 20 20 20\n+0 rate 60\n+0 apply down\n+100 apply up\n";
+const std::string &BALL = PROGRAM_SHELL_BALL;
 
-struct outcome {
-    int exit = -1;
-    std::string out, err;
-};
-
-std::string text_of(const fs::path &path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using outcome = program_shell_outcome;
 
 void put(const fs::path &path, const std::string &text) { std::ofstream(path, std::ios::binary) << text; }
 
@@ -81,7 +74,7 @@ protected:
             become_program(words, out, err, file_bytes_max);
         int answer = 0;
         waitpid(child, &answer, 0);
-        return {WIFEXITED(answer) ? WEXITSTATUS(answer) : -1, text_of(out), text_of(err)};
+        return {WIFEXITED(answer) ? WEXITSTATUS(answer) : -1, program_shell_text(out), program_shell_text(err)};
     }
 
     /* Writes the tape, replays it, and gives the digests of field and mesh, or what went wrong. */
@@ -92,7 +85,7 @@ protected:
         const outcome o = run(words);
         if (o.exit != 0)
             return "exit " + std::to_string(o.exit) + ": " + o.err;
-        const std::string json = text_of(at("digests.json"));
+        const std::string json = program_shell_text(at("digests.json"));
         const size_t from = json.find("\"field_digest\"");
         return json.substr(from, json.find('\n', from) - from);
     }
@@ -116,10 +109,10 @@ TEST_F(program, exports_the_moment_the_tape_asks_for_while_it_goes_on)
     const outcome whole = run({"replay", at("whole.tape"), "--pictures", at("out"), "--export", at("end.glaise")});
     ASSERT_EQ(whole.exit, 0) << whole.err;
     ASSERT_EQ(run({"replay", at("first.tape"), "--export", at("first.glaise"), "--export", at("first.ply")}).exit, 0);
-    EXPECT_EQ(text_of(at("out/then.glaise")), text_of(at("first.glaise")));
-    EXPECT_NE(text_of(at("end.glaise")), text_of(at("first.glaise")));
-    EXPECT_GT(text_of(at("out/then.ply")).size(), 1000u);
-    EXPECT_GT(text_of(at("out/then.stl")).size(), 1000u);
+    EXPECT_EQ(program_shell_text(at("out/then.glaise")), program_shell_text(at("first.glaise")));
+    EXPECT_NE(program_shell_text(at("end.glaise")), program_shell_text(at("first.glaise")));
+    EXPECT_GT(program_shell_text(at("out/then.ply")).size(), 1000u);
+    EXPECT_GT(program_shell_text(at("out/then.stl")).size(), 1000u);
     for (const char *name : {"then.glaise", "then.ply", "then.stl", "end.glaise"})
         EXPECT_NE(whole.out.find(name), std::string::npos) << whole.out;
 }
@@ -141,7 +134,7 @@ TEST_F(program, a_full_disk_costs_the_export_not_the_tape)
     EXPECT_EQ(o.exit, 1);
     EXPECT_NE(o.err.find("then.glaise"), std::string::npos) << o.err;
     EXPECT_FALSE(fs::exists(at("out/then.glaise")));
-    EXPECT_NE(text_of(at("end.json")).find("field_digest"), std::string::npos);
+    EXPECT_NE(program_shell_text(at("end.json")).find("field_digest"), std::string::npos);
 }
 
 /* --- words --- */
@@ -272,7 +265,7 @@ TEST_F(program, a_cut_or_damaged_sculpture_is_refused_with_the_offset)
     const outcome whole = run({"info", at("ball.glaise")});
     EXPECT_EQ(whole.exit, 0);
     EXPECT_NE(whole.out.find("digest"), std::string::npos);
-    const std::string bytes = text_of(at("ball.glaise"));
+    const std::string bytes = program_shell_text(at("ball.glaise"));
     for (size_t size : {size_t{0}, size_t{3}, size_t{40}, bytes.size() / 2, bytes.size() - 1}) {
         put(at("cut.glaise"), bytes.substr(0, size));
         const outcome o = run({"info", at("cut.glaise")});
@@ -319,7 +312,7 @@ TEST_F(program, a_disk_that_is_full_keeps_what_was_there)
         EXPECT_NE(o.err.find("glaise: " + at(name) + ": File too large"), std::string::npos) << o.err;
         EXPECT_EQ(names(), before);
     }
-    EXPECT_EQ(text_of(at("old.stl")), "what was there before");
+    EXPECT_EQ(program_shell_text(at("old.stl")), "what was there before");
 }
 
 TEST_F(program, a_small_disk_keeps_what_was_there)
@@ -333,7 +326,7 @@ TEST_F(program, a_small_disk_keeps_what_was_there)
     const std::set<std::string> before = names();
     const outcome o = run({"export", (base / "ball.glaise").string(), at("disk/a.stl")});
     const std::set<std::string> after = names();
-    const std::string kept = text_of(at("disk/a.stl"));
+    const std::string kept = program_shell_text(at("disk/a.stl"));
     umount(at("disk").c_str());
     EXPECT_EQ(o.exit, 1);
     EXPECT_NE(o.err.find("glaise: " + at("disk/a.stl") + ": No space left on device"), std::string::npos) << o.err;
@@ -359,12 +352,12 @@ TEST_F(program, a_record_does_the_same_again)
         const outcome first = run({"replay", root + "/" + tape, "--settings", root + "/config/station.tape", "--record",
                                    at("record.tape"), "--export", at("first.glaise")});
         ASSERT_EQ(first.exit, 0) << first.err;
-        EXPECT_EQ(text_of(at("record.tape")).find("recording"), std::string::npos) << "reports stand for recordings";
+        EXPECT_EQ(program_shell_text(at("record.tape")).find("recording"), std::string::npos) << "reports stand for recordings";
         const outcome again = run({"replay", at("record.tape"), "--export", at("again.glaise"), "--record", at("twice.tape")});
         ASSERT_EQ(again.exit, 0) << again.err;
-        EXPECT_EQ(text_of(at("first.glaise")), text_of(at("again.glaise"))) << tape;
-        EXPECT_EQ(text_of(at("record.tape")), text_of(at("twice.tape"))) << tape;
-        EXPECT_GT(text_of(at("first.glaise")).size(), 10000u);
+        EXPECT_EQ(program_shell_text(at("first.glaise")), program_shell_text(at("again.glaise"))) << tape;
+        EXPECT_EQ(program_shell_text(at("record.tape")), program_shell_text(at("twice.tape"))) << tape;
+        EXPECT_GT(program_shell_text(at("first.glaise")).size(), 10000u);
     }
 }
 
@@ -395,7 +388,7 @@ TEST_F(program, vectors_and_hands_that_are_not_there_are_refused)
 TEST_F(program, statistics_count_what_a_dab_visits_computes_dirties_and_treats)
 {
     ASSERT_EQ(digests(BALL).rfind("\"field_digest\"", 0), 0u);
-    const std::string json = text_of(at("digests.json"));
+    const std::string json = program_shell_text(at("digests.json"));
     double count[4] = {};
     const char *const names[4] = {"\"visited\": ", "\"computed\": ", "\"dirtied\": ", "\"treated\": "};
     for (int n = 0; n < 4; n++) {
@@ -452,7 +445,7 @@ TEST_F(program, gestures_know_no_lattice)
     std::vector<double> volumes;
     for (const char *step : {"0.4", "0.8", "1.6"}) {
         ASSERT_EQ(run({"replay", at("shape.tape"), "--step", step, "--export", at("shape.stl")}).exit, 0);
-        volumes.push_back(volume_mm3(text_of(at("shape.stl"))));
+        volumes.push_back(volume_mm3(program_shell_text(at("shape.stl"))));
     }
     EXPECT_GT(volumes[0], 5000);
     EXPECT_NEAR(volumes[1] / volumes[0], 1, 0.01);

@@ -3,6 +3,8 @@
  *       history, set aside, discarded and brought back;
  *       exit statuses; sentences that name file and place.
  * Method: the real program is started by the shell, in a folder of its own, and what it says and leaves is looked at. */
+#include "program_shell.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,18 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string BALL = "glaise tape 1\n@0 size 20 20 20\n+0 rate 60\n+0 apply down\n+100 apply up\n";
+const std::string &BALL = PROGRAM_SHELL_BALL;
 
-struct outcome {
-    int exit = -1;
-    std::string out, err;
-};
-
-std::string text_of(const fs::path &path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using outcome = program_shell_outcome;
 
 class shelf_program : public testing::Test {
 protected:
@@ -43,10 +36,7 @@ protected:
 
     outcome run(const std::string &words) const
     {
-        const std::string line =
-            "cd '" + folder.string() + "' && '" GLAISE_PROGRAM "' " + words + " >out.txt 2>err.txt";
-        const int answer = std::system(line.c_str());
-        return {WIFEXITED(answer) ? WEXITSTATUS(answer) : -1, text_of(folder / "out.txt"), text_of(folder / "err.txt")};
+        return program_shell_run(folder, folder, words);
     }
     /* What `list` says of a piece; "" when it is not there. */
     std::string line_of(int number) const
@@ -60,7 +50,7 @@ protected:
         const outcome o =
             run("replay " + tape + " --shelf s --piece " + std::to_string(number) + " --stats stats.json");
         EXPECT_EQ(o.exit, 0) << o.err;
-        const std::string json = text_of(folder / "stats.json");
+        const std::string json = program_shell_text(folder / "stats.json");
         const size_t from = json.find("\"field_digest\"");
         return json.substr(from, json.find('\n', from) - from);
     }
@@ -97,7 +87,7 @@ TEST_F(shelf_program, a_replay_leaves_a_thumbnail_or_says_why_not)
     make("one");
     const outcome o = run("replay ball.tape --shelf s --piece 1");
     ASSERT_EQ(o.exit, 0) << o.err;
-    const std::string png = text_of(folder / "s/piece-0001/thumbnail.png");
+    const std::string png = program_shell_text(folder / "s/piece-0001/thumbnail.png");
     if (png.empty()) {
         EXPECT_NE(o.err.find("no thumbnail: "), std::string::npos) << o.err;
         return;

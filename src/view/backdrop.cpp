@@ -4,6 +4,7 @@
 #include "view/backdrop_shader.h"
 #include "view/colour_shader.h"
 #include "view/program.h"
+#include "view/screen_shader.h"
 
 #include <array>
 
@@ -17,7 +18,7 @@ constexpr std::array<GLfloat, 4> even_ground = {0.05f, 0.046f, 0.041f, 1}, even_
 bool backdrop_open(backdrop *b, std::string *trouble_out)
 {
     *b = {};
-    if (!program_open("backdrop", {backdrop_shader_vertex}, {colour_shader_text, backdrop_shader_fragment}, &b->program,
+    if (!program_open("backdrop", {screen_shader_vertex}, {colour_shader_text, backdrop_shader_fragment}, &b->program,
                       trouble_out))
         return false;
     b->aspect = program_uniform(b->program, "u_aspect");

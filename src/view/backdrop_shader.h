@@ -3,21 +3,12 @@
  * What:    The ground a picture stands on: dark warm grey, a little lighter behind the piece, as a studio's paper roll;
  *          paper white behind a silhouette.
  * Is not:  The environment that clay mirrors (scenery.h). It needs colour_shader.h before it.
- * Shape:   one triangle that covers the screen, at the far plane. A dither of half a display step hides the bands that
+ * Shape:   screen_shader.h covers the screen. A dither of half a display step hides the bands that
  *          eight bits would show in so slow a gradient.
  * Units:   linear light.
  */
 #ifndef GLAISE_VIEW_BACKDROP_SHADER_H
 #define GLAISE_VIEW_BACKDROP_SHADER_H
-
-inline constexpr char backdrop_shader_vertex[] = R"(
-out vec2 v_place;
-void main()
-{
-    v_place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    gl_Position = vec4(v_place, 1.0, 1.0);
-}
-)";
 
 inline constexpr char backdrop_shader_fragment[] = R"(
 in vec2 v_place;
@@ -32,8 +23,6 @@ const vec3 TOP = vec3(0.026, 0.0235, 0.021);
 const vec3 BOTTOM = vec3(0.0145, 0.0128, 0.0113);
 const vec3 PAPER = vec3(0.72, 0.71, 0.69);
 
-float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
-
 void main()
 {
     vec2 place = u_part.xy + (v_place - vec2(u_shift, 0.0)) * u_part.zw;
@@ -41,7 +30,7 @@ void main()
     float away = length(vec2(place.x * wide * 0.62, place.y * 0.72 - 0.08));
     vec3 edge = mix(BOTTOM, TOP, smoothstep(-1.0, 1.0, place.y));
     vec3 light = u_look == 2 ? PAPER * (1.0 - 0.12 * away) : mix(MIDDLE, edge, smoothstep(0.0, 1.25, away));
-    vec3 shown = encoded_of(light) + (noise(floor(gl_FragCoord.xy)) - 0.5) / 255.0;
+    vec3 shown = encoded_of(light) + (unrest(floor(gl_FragCoord.xy)) - 0.5) / 255.0;
     f_colour = vec4(linear_of(shown), 1.0);
 }
 )";

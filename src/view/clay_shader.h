@@ -28,7 +28,6 @@ uniform sampler2D u_rough; /* the scenery, by roughness */
 
 const float SCENERY_ROUGHEST = 6.0; /* as scenery.h has it */
 const vec3 WRAP = vec3(0.20, 0.14, 0.11);
-const float SKY_STRENGTH = 1.7; /* the scenery's light for ambient 1 */
 const vec3 RAKING_CLAY = vec3(0.42);
 const vec3 SILHOUETTE_CLAY = vec3(0.012);
 
@@ -91,7 +90,8 @@ void main()
     float bend = clamp(1.0 + (open.y - 0.5) * 1.5, 0.55, 1.35);
     vec3 colour;
     if (u_look == 3) {
-        float graze = max(dot(n, RAKING_TOWARD), 0.0) * shadowed(v_eye, n, RAKING_TOWARD);
+        vec3 toward = normalize(u_light_place[0] - v_eye);
+        float graze = max(dot(n, toward), 0.0) * shadowed(v_eye, n, toward);
         colour = RAKING_CLAY * (2.4 * graze + 0.06 * open.x) * bend;
     } else {
         colour = lit(n, -u, v_colour * bend, open);

@@ -26,6 +26,8 @@ vec3 encoded_of(vec3 light)
 {
     return mix(light * 12.92, 1.055 * pow(max(light, 0.0), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light));
 }
+/* Even noise in 0..1, the same for the same pixel. */
+float unrest(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 const float KNEE = 0.55;
 vec3 highlight(vec3 light)
 {

@@ -3,6 +3,7 @@
 
 #include "view/hollow_shader.h"
 #include "view/program.h"
+#include "view/screen_shader.h"
 
 namespace {
 
@@ -47,8 +48,8 @@ void buffers_close(hollow *h)
 bool hollow_open(hollow *h, std::string *trouble_out)
 {
     *h = {};
-    if (!program_open("hollow", {hollow_shader_screen}, {hollow_shader_hidden}, &h->hidden_program, trouble_out) ||
-        !program_open("hollow's mean", {hollow_shader_screen}, {hollow_shader_smoothed}, &h->smoothed_program,
+    if (!program_open("hollow", {screen_shader_vertex}, {hollow_shader_hidden}, &h->hidden_program, trouble_out) ||
+        !program_open("hollow's mean", {screen_shader_vertex}, {hollow_shader_smoothed}, &h->smoothed_program,
                       trouble_out)) {
         hollow_close(h);
         return false;

@@ -35,10 +35,6 @@ void main()
 }
 )";
 
-inline constexpr char hollow_shader_screen[] = R"(
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }
-)";
-
 inline constexpr char hollow_shader_hidden[] = R"(
 uniform highp usampler2D u_relief;
 uniform vec2 u_depth_range;

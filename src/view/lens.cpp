@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "view/lens.h"
 
-#include "view/hollow_shader.h"
+#include "view/colour_shader.h"
 #include "view/lens_shader.h"
 #include "view/program.h"
+#include "view/screen_shader.h"
 
 bool lens_open(lens *l, std::string *trouble_out)
 {
     *l = {};
-    if (!program_open("lens", {hollow_shader_screen}, {lens_shader_fragment}, &l->program, trouble_out))
+    if (!program_open("lens", {screen_shader_vertex}, {colour_shader_text, lens_shader_fragment}, &l->program,
+                      trouble_out))
         return false;
     l->depth_range = program_uniform(l->program, "u_depth_range");
     l->origin = program_uniform(l->program, "u_origin");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What:    The stage for depth of field: what lies nearer or farther than the work is spread over a disc.
- * Is not:  Who draws it (lens.h).
+ * Is not:  Who draws it (lens.h). It needs colour_shader.h before it.
  * Shape:   a point at depth d is spread over a disc of radius  widest |d - focus| / d  pixels, LIMIT at most. Each
  *          pixel gathers those around it whose disc reaches it; what lies behind it reaches no farther than its own
  *          disc, so that a sharp rim stays sharp before a blurred ground.
@@ -26,8 +26,6 @@ float deep(ivec2 pixel)
 }
 
 float disc(float depth) { return min(u_lens.y * abs(depth - u_lens.x) / depth, u_lens.z); }
-
-float unrest(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
 void main()
 {

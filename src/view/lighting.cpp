@@ -8,6 +8,13 @@
 lighting_lamps lighting_lamps_of(const snapshot &s, const glm::dmat4 &eye_from_world)
 {
     lighting_lamps lamps;
+    if (s.look == SNAPSHOT_LOOK_RAKING) {
+        const glm::dvec3 far_out(LIGHTING_RAKING_DISTANCE * s.camera_distance * LIGHTING_RAKING);
+        lamps.count = 1;
+        lamps.place[0] = glm::vec3(glm::dvec3(0, 0, -s.camera_distance) + far_out);
+        lamps.colour[0] = glm::vec3(LIGHTING_RAKING_STRENGTH);
+        return lamps;
+    }
     for (const snapshot_light &light : s.lights) {
         if (!light.lit)
             continue;

@@ -23,6 +23,11 @@ enum {
     LIGHTING_UNITS,
 };
 
+/* The raking look's one lamp, with the viewer: from the left, grazing, so far out that its rays are parallel. */
+constexpr glm::dvec3 LIGHTING_RAKING{-0.956, 0.271, 0.115};
+constexpr double LIGHTING_RAKING_DISTANCE = 40; /* of the camera's */
+constexpr float LIGHTING_RAKING_STRENGTH = 1.6f;
+
 struct lighting_lamps {
     GLint count = 0; /* lit ones, in the snapshot's order */
     std::array<glm::vec3, SNAPSHOT_LIGHTS> place{}, colour{};

@@ -34,7 +34,7 @@ uniform float u_hollow_strength; /* 0: none */
 uniform vec2 u_depth_range;      /* of the hollow's picture: near, far mm */
 uniform sampler2D u_hollow;
 
-const vec3 RAKING_TOWARD = vec3(-0.956, 0.271, 0.115); /* as view.cpp has it: from the left, grazing */
+const float SKY_STRENGTH = 1.7; /* the scenery's light for ambient 1 */
 
 vec3 irradiance(vec3 n)
 {
@@ -65,8 +65,6 @@ vec2 hollow(float depth)
     vec2 found = sum.xy / sum.z;
     return vec2(mix(1.0, found.x, u_hollow_strength), mix(0.5, found.y, u_hollow_strength));
 }
-
-float unrest(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
 /* The nth of `count` places in the unit disc, evenly spread, turned by `turn`. */
 vec2 spread(int n, int count, float turn)

@@ -2,6 +2,7 @@
 #include "view/stereo.h"
 
 #include "view/program.h"
+#include "view/screen_shader.h"
 #include "view/stereo_shader.h"
 
 #include <glm/ext/matrix_transform.hpp>
@@ -177,7 +178,7 @@ stereo_share stereo_share_of(const stereo_screen &whole, stereo_eye eye, const p
 bool stereo_open(stereo *c, std::string *trouble_out)
 {
     *c = stereo{};
-    if (!program_open("stereo", {stereo_shader_vertex}, {stereo_shader_fragment}, &c->program, trouble_out))
+    if (!program_open("stereo", {screen_shader_vertex}, {stereo_shader_fragment}, &c->program, trouble_out))
         return false;
     c->part = program_uniform(c->program, "u_part");
     c->way = program_uniform(c->program, "u_way");

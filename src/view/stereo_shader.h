@@ -3,20 +3,13 @@
  * What:    The last pass of a stereo picture: for each of its pixels, which eye it belongs to, or both eyes' light
  *          mixed for coloured glasses.
  * Is not:  The choice of an eye's place and size (stereo.h); what the eyes see.
- * Shape:   one triangle that covers the framebuffer. `at` counts from the top left of the part, `on_screen` from that
+ * Shape:   screen_shader.h covers the framebuffer. `at` counts from the top left of the part, `on_screen` from that
  *          of the whole; texels are fetched, never filtered.
  * Units:   pixels; linear light: sRGB textures are decoded when read, the framebuffer encodes again.
  * Source:  Dubois 2009, red and cyan glasses for LCD screens. The rows' sums are 1, 0.999, 1: white stays white.
  */
 #ifndef GLAISE_VIEW_STEREO_SHADER_H
 #define GLAISE_VIEW_STEREO_SHADER_H
-
-inline constexpr char stereo_shader_vertex[] = R"(
-void main()
-{
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
-}
-)";
 
 inline constexpr char stereo_shader_fragment[] = R"(
 layout(location = 0) out vec4 f_colour;

@@ -28,6 +28,7 @@
 struct view {
     view_limits limits;
     std::string lacks;
+    double pixels_per_mm = 0; /* of the screen; 0: it does not say */
     quality pace;
 
     upload clay;
@@ -96,27 +97,18 @@ void lack(view *v, const char *what, const std::string &why)
     v->lacks += std::string(v->lacks.empty() ? "" : "; ") + what + ": " + why;
 }
 
-/* Without the clay's own program the plain look serves. */
-bool open_clay(view *v, const std::string &why_not, std::string *why)
-{
-    *why = why_not;
-    return v->clay_skin.clay.program != 0;
-}
-
 /* Each of these the picture can do without. */
 void open_effects(view *v, const std::string &skin_trouble)
 {
-    const std::string forbidden = "not wanted here";
-    const auto open = [v, &forbidden](bool *wanted, const char *what, auto &&opened) {
-        std::string why = forbidden;
+    const auto open = [v, &skin_trouble](bool *wanted, const char *what, auto &&opened) {
+        std::string why = *wanted ? skin_trouble : "not wanted here";
         if (*wanted && opened(&why))
             return;
         *wanted = false;
         lack(v, what, why);
     };
     view_limits *l = &v->limits;
-    open(&l->clay, "the plain look only",
-         [v, &skin_trouble](std::string *why) { return open_clay(v, skin_trouble, why); });
+    open(&l->clay, "the plain look only", [v](std::string *) { return v->clay_skin.clay.program != 0; });
     if (!l->clay) {
         program_close(v->clay_skin.clay.program);
         v->clay_skin.clay = {};
@@ -127,7 +119,7 @@ void open_effects(view *v, const std::string &skin_trouble)
          [v](std::string *why) { return v->clay_skin.relief.program != 0 && hollow_open(&v->hollows, why); });
     open(&l->wheel, "no turntable", [v](std::string *why) { return wheel_open(&v->turntable, why); });
     open(&l->lens, "no depth of field",
-         [v](std::string *why) { return v->limits.hollows && lens_open(&v->blur, why); });
+         [v](std::string *why) { return v->limits.hollows && lens_open(&v->blur, why); }); /* it needs their depths */
     open(&l->stereo, "no stereo", [v](std::string *why) { return stereo_open(&v->both, why); });
     open(&l->backdrop, "an even ground", [v](std::string *why) { return backdrop_open(&v->ground, why); });
     open(&l->marks, "neither tool nor box nor lights", [v](std::string *why) { return marker_open(&v->markers, why); });
@@ -156,35 +148,31 @@ bool open_all(view *v, std::string *trouble_out)
 
 /* --- light --- */
 
-bool surround(view *v, snapshot_scenery which, std::string *trouble_out)
+/* Where there is no memory for another, the one before stays. */
+void surround(view *v, snapshot_scenery which)
 {
     if (v->around_is == which)
-        return true;
+        return;
+    v->around_is = which;
     scenery made;
-    if (!scenery_open(&made, which, v->own, trouble_out))
-        return false;
+    std::string why;
+    if (!scenery_open(&made, which, v->own, &why)) {
+        lack(v, "no other scenery", why);
+        return;
+    }
     scenery_close(&v->around);
     v->around = made;
-    v->around_is = which;
-    return true;
-}
-
-/* Far out, where every ray is parallel: as clay_shader.h has it. */
-glm::dvec3 raking_lamp(const projection_ball &ball) 
-{
-    return ball.middle_eye + 60 * ball.radius * glm::dvec3(-0.956, 0.271, 0.115);
 }
 
 void cast_shadow(view *v, setting *t)
 {
     const projection_ball ball = sight_of_bricks(t->s, v->clay.bricks, t->p.eye_from_world);
-    const bool raking = t->s.look == SNAPSHOT_LOOK_RAKING;
-    if (!t->s.effects.shadows || !(ball.radius > 0) || (t->light.lamps.count == 0 && !raking))
+    if (!t->s.effects.shadows || !(ball.radius > 0) || t->light.lamps.count == 0)
         return;
     t->light.shadow_taps = t->rules.shadow_taps;
     if (t->light.shadow_taps == 0)
         return;
-    t->light.sight = shadow_look(t->p, ball, raking ? raking_lamp(ball) : glm::dvec3(t->light.lamps.place[0]));
+    t->light.sight = shadow_look(t->p, ball, glm::dvec3(t->light.lamps.place[0]));
     if (!shadow_is_stale(v->lamp_shadow, t->light.sight, v->clay.newest))
         return;
     shadow_begin(v->lamp_shadow);
@@ -216,6 +204,18 @@ void find_hollows(view *v, setting *t, bool wheel)
 bool shows_cubes(const view &v, const snapshot &s)
 {
     return v.limits.cubes && s.structure != SNAPSHOT_STRUCTURE_SURFACE;
+}
+
+/* Where there is no memory for cubes, the surface is drawn in their place. */
+void show_structure(view *v, const snapshot &s)
+{
+    std::string why;
+    if (!shows_cubes(*v, s) || !v->piece) {
+        cubes_clear(&v->structure);
+    } else if (!cubes_update(&v->structure, v->piece, s.structure, &why)) {
+        v->limits.cubes = false;
+        lack(v, "no cubes", why);
+    }
 }
 
 void draw_scene(view *v, setting *t, bool wheel)
@@ -251,22 +251,30 @@ int drawn_side(const view &v, const setting &t, int side)
     return std::max(1, static_cast<int>(std::lround(side * t.rules.scale * (lone ? 2 : 1))));
 }
 
-/* Buffers of the right size, or none. */
-bool size_all(view *v, const setting &t, std::string *trouble_out)
+/* Buffers of the right size, or none. An effect that there is no memory for is left out from here on. */
+bool size_all(view *v, setting *t, std::string *trouble_out)
 {
-    if (!canvas_fits(t.part.width, t.part.height, trouble_out))
+    if (!canvas_fits(t->part.width, t->part.height, trouble_out))
         return false;
-    int width = drawn_side(*v, t, t.part.width), height = drawn_side(*v, t, t.part.height);
-    std::string unused;
-    if (!canvas_fits(width, height, &unused)) {
-        width = t.part.width;
-        height = t.part.height;
+    int width = drawn_side(*v, *t, t->part.width), height = drawn_side(*v, *t, t->part.height);
+    std::string why;
+    if (!canvas_fits(width, height, &why)) {
+        width = t->part.width;
+        height = t->part.height;
     }
-    const int samples = std::min(t.rules.samples, v->limits.samples);
-    return canvas_size(&v->drawn, width, height, samples, trouble_out) &&
-           canvas_target_size(&v->sharp, width, height, trouble_out) &&
-           (!t.lens || canvas_target_size(&v->blurred, width, height, trouble_out)) &&
-           (!t.hollows || hollow_size(&v->hollows, width, height, trouble_out));
+    const int samples = std::min(t->rules.samples, v->limits.samples);
+    if (!canvas_size(&v->drawn, width, height, samples, trouble_out) ||
+        !canvas_target_size(&v->sharp, width, height, trouble_out))
+        return false;
+    if (t->hollows && !hollow_size(&v->hollows, width, height, &why)) {
+        lack(v, "no darker hollows, no depth of field", why);
+        v->limits.hollows = v->limits.lens = t->hollows = t->lens = false;
+    }
+    if (t->lens && !canvas_target_size(&v->blurred, width, height, &why)) {
+        lack(v, "no depth of field", why);
+        v->limits.lens = t->lens = false;
+    }
+    return true;
 }
 
 /* One eye's picture, in a target of the picture's size: the last of the three that it went through. */
@@ -309,7 +317,7 @@ void draw_words(const view &v, const setting &t, double shift_pixels)
                  down = static_cast<double>(t.height) / t.looks.height;
     glBindFramebuffer(GL_FRAMEBUFFER, into.framebuffer);
     glViewport(0, 0, into.width, into.height);
-    overlay_draw(v.words, t.s, into.width, into.height, v.limits.pixels_per_mm,
+    overlay_draw(v.words, t.s, into.width, into.height, v.pixels_per_mm,
                  {shift_pixels, across, down, t.part.x, t.part.y, t.width, t.height});
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
@@ -342,7 +350,7 @@ bool draw_mono(view *v, const snapshot &s, stereo_size size, const view_part &pa
     t.p = projection_of_part(project(*v, s, size), size.width, size.height, {part.x, part.y, part.width, part.height});
     t.light.lamps = lighting_lamps_of(s, t.p.eye_from_world);
     cast_shadow(v, &t);
-    if (!size_all(v, t, trouble_out) || !draw_eye(v, &t, trouble_out))
+    if (!size_all(v, &t, trouble_out) || !draw_eye(v, &t, trouble_out))
         return false;
     draw_words(*v, t, 0);
     return true;
@@ -397,7 +405,7 @@ bool draw_stereo(view *v, const snapshot &s, const stereo_screen &screen, const 
         t.light.sight = between.light.sight;
         t.light.shadow_taps = between.light.shadow_taps;
         t.light.mono_from_eye = glm::inverse(e.eye_from_mono);
-        if (!size_all(v, t, trouble_out) || !draw_eye(v, &t, trouble_out))
+        if (!size_all(v, &t, trouble_out) || !draw_eye(v, &t, trouble_out))
             return false;
         draw_words(*v, t, (eye == STEREO_LEFT ? 0.5 : -0.5) * words_nearer * looks.width);
         std::swap(v->eyes[eye], *v->last);
@@ -521,12 +529,8 @@ bool view_draw_part(view *v, const snapshot &s, int width, int height, const vie
     v->tool_surface = s.tool_surface;
     if (s.tool_surface && !upload_update(&v->tool, s.tool_surface, v->budget_bytes, trouble_out))
         return false;
-    if (!surround(v, s.scenery, trouble_out))
-        return false;
-    if (!shows_cubes(*v, s) || !v->piece)
-        cubes_clear(&v->structure);
-    else if (!cubes_update(&v->structure, v->piece, s.structure, trouble_out))
-        return false;
+    surround(v, s.scenery);
+    show_structure(v, s);
     const stereo_screen screen = {s.eyes.layout, s.eyes.swapped, width, height, stereo_gap_usual(height)};
     const bool two = v->both.program != 0 && s.eyes.layout != SNAPSHOT_LAYOUT_MONO;
     if (two)
@@ -548,6 +552,8 @@ bool view_pixels(view *v, std::vector<uint8_t> *rgba_out, std::string *trouble_o
 }
 
 uint32_t view_texture(const view *v) { return v->last ? v->last->texture : 0; }
+
+void view_screen(view *v, double pixels_per_mm) { v->pixels_per_mm = pixels_per_mm; }
 
 view_counts view_count(const view *v)
 {

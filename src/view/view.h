@@ -9,9 +9,11 @@
  *              view_draw     shadow map, when piece or lamp moved                              shadow.h
  *                            for each eye:
  *                              relief and hollows, half size                                   hollow.h
- *                              backdrop, clay, turntable, box, lights, tool; multisampled      canvas.h, skin.h,
+ *                              backdrop, clay or cubes, turntable, box, lights, tool;          canvas.h, backdrop.h,
+ *                              multisampled                                                    skin.h, cubes.h,
  *                                                                                              wheel.h, marker.h
  *                              depth of field                                                  lens.h
+ *                              menus and the strip                                             overlay.h
  *                            both eyes into one                                              stereo.h
  *              view_pixels   the finished picture as bytes
  *
@@ -63,7 +65,6 @@ struct view_counts {
 /* What a device is to do without, as if it could not: for trying what is left. */
 struct view_limits {
     int samples = 4;
-    double pixels_per_mm = 0; /* of the screen; 0: it does not say */
     bool clay = true, shadows = true, hollows = true, wheel = true, lens = true, stereo = true;
     bool backdrop = true, marks = true, cubes = true, words = true;
 };
@@ -71,7 +72,10 @@ struct view_limits {
 /* NULL and a trouble when no context is current, it is older than 3.1, or the device refuses even the plain look. */
 [[nodiscard]] view *view_open(std::string *trouble_out, const view_limits &limits = {});
 void view_close(view *v); /* NULL is fine */
-/* What this device does not show, in sentences; empty when nothing. */
+/* How large the screen's pixels are, so that words can be read; 0, as at first: it does not say. */
+void view_screen(view *v, double pixels_per_mm);
+/* What this device does not show, in sentences; empty when nothing. It may grow with a picture: where memory ends, an
+   effect is left out. */
 const std::string &view_lacks(const view *v);
 
 /* The picture for SNAPSHOT_SCENERY_OWN. A bad one is refused, the one before stays. */

@@ -14,8 +14,6 @@
 
 namespace {
 
-constexpr float sky_strength = 1.7f; /* of the scenery's light for ambient 1, as on clay */
-
 double radius_of(const snapshot &s)
 {
     return WHEEL_WIDER * std::max(s.box_hi[0] - s.box_lo[0], s.box_hi[2] - s.box_lo[2]);
@@ -66,7 +64,7 @@ bool wheel_open(wheel *w, std::string *trouble_out)
         return false;
     }
     w->light = lighting_find(w->shown.program);
-    w->sky = program_uniform(w->shown.program, "u_sky");
+    w->ambient = program_uniform(w->shown.program, "u_ambient");
     w->look = program_uniform(w->shown.program, "u_look");
     w->depth_range = program_uniform(w->relief.program, "u_depth_range");
     glGenVertexArrays(1, &w->empty_array);
@@ -104,7 +102,7 @@ void wheel_draw(const wheel &w, const snapshot &s, const projection &p, const li
 {
     glUseProgram(w.shown.program);
     lighting_set(w.light, light);
-    glUniform1f(w.sky, s.material.ambient * sky_strength);
+    glUniform1f(w.ambient, s.material.ambient);
     glUniform1i(w.look, s.look);
     draw(w, w.shown, s, p);
 }

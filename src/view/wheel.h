@@ -26,7 +26,7 @@ struct wheel_program {
 struct wheel {
     wheel_program shown, relief;
     lighting_uniforms light;
-    GLint sky = -1, look = -1, depth_range = -1;
+    GLint ambient = -1, look = -1, depth_range = -1;
     GLuint empty_array = 0;
 };
 

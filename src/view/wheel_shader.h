@@ -43,7 +43,7 @@ inline constexpr char wheel_shader_fragment[] = R"(
 in vec3 v_eye;
 centroid in vec3 v_normal;
 in vec3 v_place;
-uniform float u_sky;
+uniform float u_ambient; /* of the material, as on clay */
 uniform int u_look; /* as enum snapshot_look */
 layout(location = 0) out vec4 f_colour;
 
@@ -57,12 +57,10 @@ void main()
     float edge = smoothstep(0.985 - fwidth(out_at), 0.985, out_at);
     vec3 slate = SLATE * (1.0 - 0.16 * groove * (1.0 - smoothstep(0.25, 0.8, wide))) * (1.0 + 0.8 * edge);
     vec2 open = hollow(-v_eye.z);
-    vec3 light = irradiance(n) * u_sky * open.x;
-    if (u_look == 3) {
-        float graze = max(dot(n, RAKING_TOWARD), 0.0) * shadowed(v_eye, n, RAKING_TOWARD);
-        light = vec3(1.6 * graze + 0.06 * open.x);
-    }
-    for (int i = 0; i < u_light_count && u_look != 3; i++) {
+    vec3 light = irradiance(n) * u_ambient * SKY_STRENGTH * open.x;
+    if (u_look == 3)
+        light = vec3(0.06 * open.x);
+    for (int i = 0; i < u_light_count; i++) {
         vec3 toward = normalize(u_light_place[i] - v_eye);
         float seen = i == 0 ? shadowed(v_eye, n, toward) : 1.0;
         float shine = pow(max(dot(n, normalize(toward + v)), 0.0), 24.0) * 0.5;

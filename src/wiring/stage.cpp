@@ -17,6 +17,7 @@ static_assert(LARGE_PICTURE_SIDE_MAX <= PICTURE_SIDE_MAX && LARGE_PICTURE_SIDE_M
 struct stage {
     display *place = nullptr;
     view *eye = nullptr;
+    std::string told;    /* of what pictures do without */
     std::string scenery; /* path of the picture that was brought last, to be read again */
 };
 
@@ -40,6 +41,14 @@ bool set_up(stage *s, std::string *text_out)
     return s->eye != nullptr;
 }
 
+void tell_lacks(stage *s)
+{
+    if (view_lacks(s->eye) == s->told)
+        return;
+    s->told = view_lacks(s->eye);
+    std::fprintf(stderr, "glaise: pictures are poorer here: %s\n", s->told.c_str());
+}
+
 /* A driver that was reset took everything along. */
 bool is_there(stage *s, std::string *text_out)
 {
@@ -55,8 +64,7 @@ stage *stage_open(std::string *text_out)
 {
     auto *s = new stage;
     if (set_up(s, text_out)) {
-        if (!view_lacks(s->eye).empty())
-            std::fprintf(stderr, "glaise: pictures are poorer here: %s\n", view_lacks(s->eye).c_str());
+        tell_lacks(s);
         return s;
     }
     stage_close(s);
@@ -110,7 +118,9 @@ bool stage_picture(stage *s, const sculpture *piece, const snapshot &shown, cons
         return picture_write_rows(static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height), 4, rows, sink,
                                   self);
     };
-    if (store_export(path, write, text_out))
+    const bool good = store_export(path, write, text_out);
+    tell_lacks(s);
+    if (good)
         return true;
     if (!trouble.empty())
         *text_out = path + ": " + trouble;

@@ -195,6 +195,23 @@ TEST_F(view_looks, raking_light_grazes_from_the_left)
         << "the clay's colour does not distract";
 }
 
+TEST_F(view_looks, raking_light_throws_long_shadows)
+{
+    ball(-30, 20);
+    it_piece.ball({24, -8, -4}, 20, clay_rgba); /* where the lamp's rays lead, a little below and behind */
+    update(it_piece);
+    snapshot s = looked_at(SNAPSHOT_LOOK_RAKING);
+    s.effects.occlusion = 0;
+    const view_stage_picture with = draw(s);
+    s.effects.shadows = false;
+    const view_stage_picture without = draw(s);
+    int darker = 0;
+    for (int y = 0; y < height; y++)
+        for (int x = width / 2; x < width; x++)
+            darker += with.light(x, y) < 0.5 * without.light(x, y);
+    EXPECT_GT(darker, 150);
+}
+
 TEST_F(view_looks, mirrored_is_left_for_right)
 {
     ball(-14, 20);
@@ -287,7 +304,7 @@ TEST_F(view_looks, a_poorer_device_gives_a_poorer_picture_and_says_so)
     poor[7].backdrop = false;
     poor[8].marks = false;
     poor[9].cubes = false;
-    poor[10] = {0, 0, false, false, false, false, false, false, false, false, false, false};
+    poor[10] = {0, false, false, false, false, false, false, false, false, false, false};
     for (size_t n = 0; n < poor.size(); n++) {
         view *v = view_open(&trouble, poor[n]);
         ASSERT_NE(v, nullptr) << trouble;
@@ -354,6 +371,21 @@ TEST_F(view_looks, every_level_of_quality_gives_a_picture)
         EXPECT_GT(std::abs(now.light(width / 2, height / 2) - now.light(3, 3)), 0.03) << said;
         before = now;
     }
+}
+
+/* Of the same millimetres: on a screen whose pixels are smaller words take more of them. */
+TEST_F(view_looks, words_are_as_large_as_the_screens_millimetres_want)
+{
+    snapshot s = looked_at();
+    const view_stage_picture none = draw(s, 1280, 720);
+    s.strip.shown = true;
+    const auto covered = [&](double pixels_per_mm) {
+        view_screen(it, pixels_per_mm);
+        return draw(s, 1280, 720).changed(none, 2);
+    };
+    const int coarse = covered(2.5), fine = covered(5);
+    EXPECT_GT(coarse, 1000);
+    EXPECT_GT(fine, coarse * 5 / 4) << "not twice: no larger than fits";
 }
 
 TEST_F(view_looks, a_screen_of_any_size_has_one_that_fits)
